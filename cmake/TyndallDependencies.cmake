@@ -1,0 +1,27 @@
+# Every dependency is a Debian package; tools/debian-packages.txt names them all.
+
+# find_package that says which Debian package is missing.
+macro(tyndall_require name package)
+  find_package(${name} ${ARGN} QUIET)
+  if(NOT ${name}_FOUND)
+    message(FATAL_ERROR "tyndall needs ${name}. On Debian or Ubuntu: apt-get install ${package}")
+  endif()
+endmacro()
+
+tyndall_require(embree libembree-dev 3 CONFIG)
+tyndall_require(TBB libtbb-dev CONFIG)
+tyndall_require(Imath libimath-dev CONFIG)
+tyndall_require(OpenEXR libopenexr-dev CONFIG)
+tyndall_require(fmt libfmt-dev CONFIG)
+tyndall_require(PNG libpng-dev)
+tyndall_require(ZLIB zlib1g-dev)
+tyndall_require(CLI11 libcli11-dev CONFIG)
+tyndall_require(nlohmann_json nlohmann-json3-dev CONFIG)
+tyndall_require(Threads libc6-dev)
+if(TYNDALL_BUILD_TESTS)
+  tyndall_require(GTest libgtest-dev CONFIG)
+  tyndall_require(Boost libboost-dev)
+endif()
+if(TYNDALL_BUILD_BENCH)
+  tyndall_require(benchmark libbenchmark-dev CONFIG)
+endif()
