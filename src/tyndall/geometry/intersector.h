@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "tyndall/geometry/ray.h"
+#include "tyndall/geometry/shape.h"
+#include "tyndall/math/transform.h"
+
+namespace tyndall {
+
+/// Which shapes a ray sees.
+enum class RayMask : uint32_t {
+  opaque = 1,    ///< all but interfaces
+  boundary = 2,  ///< interfaces between media only
+  all = 3,
+};
+
+/// A hit, in world space.
+struct SceneHit {
+  float t;          ///< distance along the ray [scene units]
+  uint32_t group;   ///< group and shape index as given to the constructor
+  uint32_t shape;
+  SurfacePoint point;
+};
+
+/// Finds the first of many shapes that a ray meets. Embree behind it; immutable and safe to use
+/// from all threads once built.
+class Intersector {
+ public:
+  /// A shape and whether it is only the boundary between media.
+  struct Member {
+    const Shape* shape;  ///< must outlive the intersector
+    bool is_boundary;
+  };
+  using Group = std::vector<Member>;
+  struct Instance {
+    uint32_t group;
+    Transform world_from_group;
+  };
+
+  /// Group 0 is the world itself; the others appear only through `instances`.
+  /// Throws std::runtime_error if memory runs out.
+  Intersector(std::span<const Group> groups, std::span<const Instance> instances);
+  ~Intersector();
+  Intersector(const Intersector&) = delete;
+  Intersector& operator=(const Intersector&) = delete;
+
+  /// The closest hit at a distance in (0, t_max). Use offset_origin() for rays that leave a
+  /// surface.
+  std::optional<SceneHit> intersect(const Ray& ray, float t_max, RayMask mask) const;
+  /// Whether intersect() would find anything.
+  bool is_occluded(const Ray& ray, float t_max, RayMask mask) const;
+
+  Bounds3 bounds() const;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// The point `p` of a surface moved off it to the side that `d` leaves to, by a few rounding
+/// errors, so that a ray from there does not hit the same surface again [WB19].
+Vec3 offset_origin(Vec3 p, Vec3 ng, Vec3 d);
+
+}  // namespace tyndall

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "tyndall/image/image.h"
+
+namespace tyndall {
+
+enum class ToneCurve { plain, filmic };
+
+struct WriteOptions {
+  bool half = false;        ///< EXR: 16-bit channels (depth and spp stay float)
+  float exposure = 0;       ///< PNG: stops
+  ToneCurve tone = ToneCurve::plain;  ///< PNG
+};
+
+/// Reads EXR (any layers, tiled or scanline, luminance-chroma too), PNG (sRGB to linear), PFM or
+/// HDR by the file's first bytes. Throws std::runtime_error with the path and the reason.
+Image read_image(const std::string& path);
+
+/// Writes by the extension: .exr, .png or .pfm. Writes to a temporary name first and renames, so
+/// that an interrupted write never destroys an older file. Throws std::runtime_error.
+void write_image(const Image& image, const std::string& path, const WriteOptions& options = {});
+
+/// Throws std::runtime_error if write_image() could not write there: unknown extension, no such
+/// folder, no permission. Leaves no file behind.
+void check_writable(const std::string& path);
+
+}  // namespace tyndall

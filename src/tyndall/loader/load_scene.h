@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "tyndall/integrators/render_settings.h"
+#include "tyndall/loader/diagnostics.h"
+#include "tyndall/scene/scene_description.h"
+
+namespace tyndall {
+
+struct LoadOptions {
+  bool strict = false;   ///< what is not supported is an error, not a warning
+  WarningSink on_warning;  ///< may be empty
+};
+
+struct LoadedScene {
+  SceneDescription scene;
+  RenderSettings settings;
+};
+
+/// Reads a pbrt-v4 scene file with all files that it names. Throws SceneError for whatever is
+/// wrong in them, std::runtime_error if the file itself cannot be read.
+LoadedScene load_scene(const std::string& path, const LoadOptions& options = {});
+
+/// The same for text in memory; `name` stands for the file, its folder resolves relative paths.
+LoadedScene parse_scene(std::string_view text, const std::string& name,
+                        const LoadOptions& options = {});
+
+}  // namespace tyndall

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <variant>
+
+#include "tyndall/geometry/ray.h"
+#include "tyndall/math/bounds.h"
+#include "tyndall/math/rgb.h"
+#include "tyndall/media/grid_medium.h"
+#include "tyndall/media/homogeneous_medium.h"
+#include "tyndall/media/medium_properties.h"
+
+namespace tyndall {
+
+/// A participating medium: properties at a point, and a piecewise constant majorant along a ray.
+/// Tracking is not its business; see media/tracking.h. Immutable, safe to share between threads.
+///
+/// Every medium type M of the set provides
+///   MediumProperties at(Vec3 p) const;                     p in world space
+///   M::Segments segments(Ray ray, float t_max) const;      world space, in order, disjoint
+///   bool is_emissive() const;  bool is_grey() const;       grey: all channels equal
+///   const PhaseFunction& phase() const;
+/// Segments has  bool next(MediumSegment&)  that yields segments until it returns false; what
+/// no segment covers is empty space.
+using MediumVariant = std::variant<HomogeneousMedium, GridMedium>;
+
+class Medium {
+ public:
+  template <typename M>
+  explicit Medium(M medium) : medium_(std::move(medium)) {}
+
+  /// Calls f with the concrete medium: once per ray, so that inner loops are static.
+  template <typename F>
+  decltype(auto) visit(F&& f) const {
+    return std::visit(std::forward<F>(f), medium_);
+  }
+
+  MediumProperties at(Vec3 p) const {
+    return visit([&](const auto& m) { return m.at(p); });
+  }
+  bool is_emissive() const {
+    return visit([](const auto& m) { return m.is_emissive(); });
+  }
+  bool is_grey() const {
+    return visit([](const auto& m) { return m.is_grey(); });
+  }
+  bool is_homogeneous() const { return std::holds_alternative<HomogeneousMedium>(medium_); }
+  const PhaseFunction& phase() const {
+    return visit([](const auto& m) -> const PhaseFunction& { return m.phase(); });
+  }
+
+ private:
+  MediumVariant medium_;
+};
+
+}  // namespace tyndall

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "tyndall/math/vec.h"
+
+namespace tyndall {
+
+/// An index drawn from a table.
+struct DiscreteSample {
+  size_t index;
+  float probability;
+  float u_remapped;  ///< uniform in [0, 1), for reuse
+};
+
+/// Chooses an index in proportion to its weight, in logarithmic time.
+class DiscreteDistribution {
+ public:
+  DiscreteDistribution() = default;
+  /// Weights are non-negative and finite; if all are zero, every index is alike.
+  explicit DiscreteDistribution(std::span<const float> weights);
+
+  /// Precondition: not empty.
+  DiscreteSample sample(float u) const;
+  float probability(size_t index) const;
+  size_t size() const { return cdf_.size(); }
+
+ private:
+  std::vector<float> cdf_;  // inclusive, last is exactly 1
+};
+
+/// A position drawn from a piecewise constant density on [0, 1].
+struct PiecewiseSample {
+  float x;
+  float pdf;
+};
+
+/// Piecewise constant density on [0, 1], bins of equal width.
+class PiecewiseConstant1D {
+ public:
+  PiecewiseConstant1D() = default;
+  explicit PiecewiseConstant1D(std::span<const float> values);
+
+  PiecewiseSample sample(float u) const;
+  float pdf(float x) const;
+  float invert(float x) const;  ///< the u that sample() maps to x
+  float integral() const { return integral_; }
+
+ private:
+  std::vector<float> values_;
+  std::vector<float> cdf_;  // exclusive, size + 1
+  float integral_ = 0;
+};
+
+struct PiecewiseSample2D {
+  Vec2 p;
+  float pdf;
+};
+
+/// Piecewise constant density on the unit square, row-major, row 0 at y = 0.
+class PiecewiseConstant2D {
+ public:
+  PiecewiseConstant2D() = default;
+  PiecewiseConstant2D(std::span<const float> values, int width, int height);
+
+  PiecewiseSample2D sample(Vec2 u) const;
+  float pdf(Vec2 p) const;
+  Vec2 invert(Vec2 p) const;
+
+ private:
+  std::vector<PiecewiseConstant1D> rows_;
+  PiecewiseConstant1D marginal_;
+};
+
+}  // namespace tyndall
