@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tyndall/image/film.h"
+#include "tyndall/integrators/render_settings.h"
+#include "tyndall/scene/scene.h"
+
+namespace tyndall {
+
+/// How far a render has come.
+struct RenderProgress {
+  double fraction;           ///< of the work, by samples or by time, whichever ends first
+  double seconds;            ///< since the start
+  double seconds_remaining;  ///< estimated
+  uint32_t samples;          ///< finished per pixel
+  std::string phase;         ///< "training", "rendering"
+};
+
+/// How a render is run, as opposed to what is rendered.
+struct RenderOptions {
+  int threads = 0;                      ///< zero: all that the process may use
+  std::optional<double> time_limit;     ///< [s]; the pass in hand is finished
+  /// Set to true from anywhere, a signal handler too, to stop after the pass in hand.
+  const std::atomic<bool>* stop = nullptr;
+  /// Called from one thread at a time, at most about ten times a second.
+  std::function<void(const RenderProgress&)> on_progress;
+  /// Called after each pass with the film so far and its samples per pixel, for checkpoints.
+  std::function<void(const Film&, uint32_t samples)> on_pass;
+};
+
+struct RenderStatistics {
+  double seconds = 0;          ///< wall time in the passes, training included
+  double training_seconds = 0;
+  double cpu_seconds = 0;      ///< of the process during the render
+  uint32_t samples_per_pixel = 0;
+  int64_t paths = 0;
+  int threads = 0;
+  bool stopped_early = false;  ///< by time limit or `stop`
+  RejectedSamples rejected;
+  /// What the integrator has to say, by dotted name: "path.length.mean", "guiding.records".
+  std::map<std::string, double> counters;
+  std::vector<std::string> notes;  ///< sentences for the user
+};
+
+struct RenderResult {
+  Film film;
+  RenderStatistics statistics;
+};
+
+/// The names that RenderSettings::integrator may have.
+std::vector<std::string> integrator_names();
+
+/// Renders in passes of growing size. The same scene, seed and number of samples give the same
+/// film bit for bit with any number of threads. Throws std::invalid_argument for an unknown
+/// integrator or option, naming the nearest valid ones.
+RenderResult render(const Scene& scene, const RenderSettings& settings,
+                    const RenderOptions& options = {});
+
+}  // namespace tyndall
