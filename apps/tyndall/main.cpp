@@ -1,1 +1,9 @@
-int main() { return 0; }
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tyndall/commands.h"
+#include "apps/tyndall/version.h"
+
+int main(int argc, char** argv) {
+  using namespace tyndall::app;
+  Program program("tyndall", "A path tracer for light in fog, smoke and clouds.", version_text());
+  return static_cast<int>(program.run(argc, argv));
+}
