@@ -13,8 +13,8 @@ namespace tyndall {
 /// What one camera path found.
 struct PathSample {
   Rgb L;
-  Rgb albedo;    ///< of the first event, surface or medium
-  Vec3 normal;   ///< of the first surface, world space; zero in a medium
+  Rgb albedo;       ///< of the first event, surface or medium
+  Vec3 normal;      ///< of the first surface, world space; zero in a medium
   float depth = 0;  ///< distance to the first event [scene units]; zero if there is none
 };
 
@@ -25,35 +25,44 @@ struct RejectedSamples {
   int64_t total() const { return not_a_number + infinite + negative; }
 };
 
-/// Running sums of a rectangle of pixels. Different pixels may be added to by different threads;
-/// one pixel by one thread at a time.
+/// Running sums of a rectangle of pixels. Different pixels may be added to by different
+/// threads; one pixel by one thread at a time.
 class Film {
  public:
-  /// `crop_min`, `crop_max` (exclusive) bound the rendered part of a picture of `full_size`.
+  /// `crop_min`, `crop_max` (exclusive) bound the rendered part of a picture of
+  /// `full_size`.
   Film(Vec2i full_size, Vec2i crop_min, Vec2i crop_max);
 
   Vec2i full_size() const { return full_size_; }
   Vec2i crop_min() const { return crop_min_; }
   Vec2i crop_max() const { return crop_max_; }
 
-  /// Adds a sample of the pixel (in full picture coordinates) with the weight of its filter.
-  /// A sample that is not finite or negative counts as black and as rejected.
+  /// Adds a sample of the pixel (in full picture coordinates) with the weight of its
+  /// filter. Radiance that is not finite or is negative counts as black and as rejected;
+  /// guides (albedo, normal, depth) that are not finite count as zero.
   void add(Vec2i pixel, const PathSample& sample, float weight);
 
-  /// R,G,B; variance.R,G,B (of the pixel's mean); albedo.R,G,B; normal.X,Y,Z; depth.Z; spp.Y.
+  /// R,G,B; variance.R,G,B (of the pixel's mean, as if its samples were independent; zero
+  /// below two samples); albedo.R,G,B; normal.X,Y,Z (averages, not unit); depth.Z (average
+  /// over the samples that hit something); spp.Y.
   Image develop() const;
   RejectedSamples rejected() const;
 
  private:
+  // Double, because a float mean stops moving after some ten thousand samples.
   struct Pixel {
-    Rgb mean, sum_squares;  // Welford, of weight * L
-    Rgb albedo;             // sums
+    double mean[3] = {}, sum_squares[3] = {};  // [Welford62], of weight * L
+    Rgb albedo;                                // sums
     Vec3 normal;
     float depth = 0;
     uint32_t count = 0, depth_count = 0;
     uint32_t nan = 0, inf = 0, negative = 0;
   };
+  static bool accept(Pixel& pixel, Rgb L);
+  static void add_guides(Pixel& pixel, const PathSample& sample);
   Pixel& at(Vec2i pixel);
+  int width() const { return crop_max_.x - crop_min_.x; }
+  int height() const { return crop_max_.y - crop_min_.y; }
 
   Vec2i full_size_, crop_min_, crop_max_;
   std::vector<Pixel> pixels_;

@@ -4,27 +4,28 @@
 #include <string>
 
 #include "tyndall/image/image.h"
+#include "tyndall/image/tone.h"
 
 namespace tyndall {
 
-enum class ToneCurve { plain, filmic };
-
 struct WriteOptions {
-  bool half = false;        ///< EXR: 16-bit channels (depth and spp stay float)
-  float exposure = 0;       ///< PNG: stops
-  ToneCurve tone = ToneCurve::plain;  ///< PNG
+  bool half = false;  ///< EXR: 16-bit channels (depth, spp and variance stay float)
+  ToneMapping tone;   ///< PNG
 };
 
-/// Reads EXR (any layers, tiled or scanline, luminance-chroma too), PNG (sRGB to linear), PFM or
-/// HDR by the file's first bytes. Throws std::runtime_error with the path and the reason.
+/// Reads EXR (any layers, tiled or scanline, luminance-chroma too), PNG (sRGB to linear),
+/// PFM or HDR by the file's first bytes. Grey images give equal R, G and B; of an EXR of
+/// several parts the first is read. Throws std::runtime_error with the path and the reason.
 Image read_image(const std::string& path);
 
-/// Writes by the extension: .exr, .png or .pfm. Writes to a temporary name first and renames, so
-/// that an interrupted write never destroys an older file. Throws std::runtime_error.
-void write_image(const Image& image, const std::string& path, const WriteOptions& options = {});
+/// Writes by the extension: .exr, .hdr, .pfm or .png; only .exr keeps more than R, G, B.
+/// Writes to a temporary name first and renames, so that an interrupted write never
+/// destroys an older file. Throws std::runtime_error.
+void write_image(const Image& image, const std::string& path,
+                 const WriteOptions& options = {});
 
-/// Throws std::runtime_error if write_image() could not write there: unknown extension, no such
-/// folder, no permission. Leaves no file behind.
+/// Throws std::runtime_error if write_image() could not write there: unknown extension, no
+/// such folder, no permission. Leaves no file behind.
 void check_writable(const std::string& path);
 
 }  // namespace tyndall

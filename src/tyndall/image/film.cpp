@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tyndall/image/film.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace tyndall {
+namespace {
+
+float to_float(double x) {
+  constexpr double largest = std::numeric_limits<float>::max();
+  return static_cast<float>(std::clamp(x, -largest, largest));
+}
+
+/// Adds the planes `layer`.`components`[i] and fills them with value_at(pixel)[i].
+template <typename ValueAt>
+void fill(Image& image, const std::string& layer, const std::string& components,
+          ValueAt value_at) {
+  for (int i = 0; i < static_cast<int>(components.size()); ++i) {
+    const std::string component(1, components[static_cast<size_t>(i)]);
+    std::vector<float>& values = image.channel(channel_name(layer, component)).values;
+    for (size_t pixel = 0; pixel < values.size(); ++pixel)
+      values[pixel] = value_at(pixel, i);
+  }
+}
+
+}  // namespace
+
+Film::Film(Vec2i full_size, Vec2i crop_min, Vec2i crop_max)
+    : full_size_(full_size), crop_min_(crop_min), crop_max_(crop_max) {
+  assert(width() > 0 && height() > 0);
+  pixels_.resize(static_cast<size_t>(width()) * static_cast<size_t>(height()));
+}
+
+Film::Pixel& Film::at(Vec2i pixel) {
+  assert(crop_min_.x <= pixel.x && pixel.x < crop_max_.x);
+  assert(crop_min_.y <= pixel.y && pixel.y < crop_max_.y);
+  const Vec2i p = pixel - crop_min_;
+  return pixels_[static_cast<size_t>(p.y) * static_cast<size_t>(width()) +
+                 static_cast<size_t>(p.x)];
+}
+
+bool Film::accept(Pixel& pixel, Rgb L) {
+  if (is_finite(L) && min_component(L) >= 0) return true;
+  if (std::isnan(L.r) || std::isnan(L.g) || std::isnan(L.b)) {
+    ++pixel.nan;
+  } else if (!is_finite(L)) {
+    ++pixel.inf;
+  } else {
+    ++pixel.negative;
+  }
+  return false;
+}
+
+void Film::add_guides(Pixel& pixel, const PathSample& sample) {
+  if (is_finite(sample.albedo)) pixel.albedo += sample.albedo;
+  if (is_finite(sample.normal)) pixel.normal += sample.normal;
+  if (sample.depth > 0 && std::isfinite(sample.depth)) {
+    pixel.depth += sample.depth;
+    ++pixel.depth_count;
+  }
+}
+
+void Film::add(Vec2i position, const PathSample& sample, float weight) {
+  Pixel& pixel = at(position);
+  const Rgb L = accept(pixel, sample.L) ? sample.L : Rgb();
+  ++pixel.count;
+  for (int c = 0; c < 3; ++c) {
+    const double value = static_cast<double>(weight) * static_cast<double>(L[c]);
+    const double delta = value - pixel.mean[c];
+    pixel.mean[c] += delta / pixel.count;
+    pixel.sum_squares[c] += delta * (value - pixel.mean[c]);
+  }
+  add_guides(pixel, sample);
+}
+
+Image Film::develop() const {
+  Image image(width(), height());
+  image.offset = crop_min_;
+  image.full_size = full_size_;
+  fill(image, "", "RGB", [&](size_t i, int c) { return to_float(pixels_[i].mean[c]); });
+  fill(image, "variance", "RGB", [&](size_t i, int c) {
+    const double n = pixels_[i].count;
+    return n < 2 ? 0 : to_float(pixels_[i].sum_squares[c] / (n * (n - 1)));
+  });
+  const auto per_sample = [&](size_t i) {
+    return 1 / static_cast<float>(std::max(pixels_[i].count, 1u));
+  };
+  fill(image, "albedo", "RGB",
+       [&](size_t i, int c) { return pixels_[i].albedo[c] * per_sample(i); });
+  fill(image, "normal", "XYZ",
+       [&](size_t i, int c) { return pixels_[i].normal[c] * per_sample(i); });
+  fill(image, "depth", "Z", [&](size_t i, int) {
+    return pixels_[i].depth / static_cast<float>(std::max(pixels_[i].depth_count, 1u));
+  });
+  fill(image, "spp", "Y",
+       [&](size_t i, int) { return static_cast<float>(pixels_[i].count); });
+  return image;
+}
+
+RejectedSamples Film::rejected() const {
+  RejectedSamples sum;
+  for (const Pixel& pixel : pixels_) {
+    sum.not_a_number += pixel.nan;
+    sum.infinite += pixel.inf;
+    sum.negative += pixel.negative;
+  }
+  return sum;
+}
+
+}  // namespace tyndall

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace tyndall {
+
+/// The bytes of a file. Throws std::runtime_error: "PATH: cannot read: REASON".
+std::string read_whole_file(const std::string& path);
+
+/// Writes to a temporary name in the same folder and renames it to `path`, so that no
+/// reader ever sees half a file and a failure leaves an older file as it was. Throws
+/// std::runtime_error: "PATH: cannot write: REASON".
+void write_whole_file(const std::string& path, std::string_view bytes);
+
+/// Throws what write_whole_file() would throw for want of a folder or of permission. Leaves
+/// no file behind.
+void check_can_write_file(const std::string& path);
+
+}  // namespace tyndall
