@@ -72,9 +72,9 @@ std::vector<Pool> pool_cells(const Histogram& h, double missing_expected, int64_
     pools.push_back(current);
     current = {};
   }
-  // Cells come in increasing order, so a rest that is too small exists only without any
-  // pool.
-  if (current.expected > 0 || current.count > 0) pools.push_back(current);
+  if (pools.empty()) return {current};
+  pools.back().expected += current.expected;
+  pools.back().count += current.count;
   return pools;
 }
 

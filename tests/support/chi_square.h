@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "support/statistical_tests.h"
 #include "tyndall/math/statistics.h"
 #include "tyndall/math/vec.h"
 

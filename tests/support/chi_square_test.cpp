@@ -14,8 +14,12 @@ namespace {
 
 // Directions in proportion to exp(k z) (von Mises-Fisher).
 std::optional<Vec3> sample_lobe(double k, Vec2 u) {
-  const double z = 1 + std::log(double{u.x} + (1 - double{u.x}) * std::exp(-2 * k)) / k;
-  return spherical_direction(static_cast<float>(z), 2 * pi * u.y);
+  const double x = double{u.x};
+  const double one_minus_z = -std::log(x + (1 - x) * std::exp(-2 * k)) / k;
+  const double r = std::sqrt(one_minus_z * (2 - one_minus_z));
+  const double phi = 2 * std::numbers::pi * double{u.y};
+  return Vec3{static_cast<float>(r * std::cos(phi)), static_cast<float>(r * std::sin(phi)),
+              static_cast<float>(1 - one_minus_z)};
 }
 double lobe_pdf(double k, Vec3 w) {
   return k * std::exp(k * (double{w.z} - 1)) / (2 * std::numbers::pi * -std::expm1(-2 * k));
