@@ -2,43 +2,95 @@
 #pragma once
 
 #include <memory>
-#include <vector>
 
 #include "tyndall/geometry/ray.h"
 #include "tyndall/math/bounds.h"
 #include "tyndall/math/transform.h"
+#include "tyndall/media/brick_grid.h"
+#include "tyndall/media/grid_space.h"
+#include "tyndall/media/majorant_grid.h"
 #include "tyndall/media/medium_properties.h"
 #include "tyndall/media/phase_function.h"
 
 namespace tyndall {
 
-/// Samples at cell centres of a box, x fastest, then y, then z.
-struct DensityGrid {
-  Vec3i resolution;
-  std::vector<float> values;  ///< finite, >= 0; resolution.x * y * z of them
-};
-
-/// A density grid that scales constant coefficients: trilinear between cell centres, samples
-/// beyond the border count as zero, nothing outside the box [pbrt-v4 "uniformgrid"].
+/// A density grid that scales constant coefficients: trilinear between cell centres,
+/// samples beyond the border count as zero, nothing outside the box [PBRT4, Sec. 11.4].
 class GridMedium {
  public:
-  /// `bounds` is the box in medium space. `density` scales all coefficients.
-  GridMedium(DensityGrid density, Bounds3 bounds, Transform world_from_medium,
+  /// `bounds` is the box in medium space; without volume, the medium is empty. `density`
+  /// scales the coefficients; negative and non-finite values count as zero.
+  GridMedium(const DensityGrid& density, Bounds3 bounds, const Transform& world_from_medium,
              MediumProperties properties, PhaseFunction phase);
 
   /// DDA over a coarse grid of majorants and means, empty cells skipped.
-  class Segments;
+  class Segments {
+   public:
+    Segments(const GridMedium& medium, const Ray& ray, float t_max) : medium_(&medium) {
+      const auto clip = medium.space_.clip(ray, t_max, medium.box_);
+      if (!clip) return;
+      ray_ = clip->ray;
+      t_offset_ = clip->t_offset;
+      walk_ = CellWalk(*medium.majorants_, ray_, 0, clip->length);
+    }
 
-  MediumProperties at(Vec3 p) const;
-  Segments segments(const Ray& ray, float t_max) const;
-  bool is_emissive() const;
-  bool is_grey() const;
+    bool next(MediumSegment& segment) {
+      CellWalk::Step step;
+      while (walk_.next(step)) {
+        const MajorantCell& cell = medium_->majorants_->cell(step.cell);
+        if (cell.majorant == 0) continue;
+        majorant_ = cell.majorant;
+        segment = {t_offset_ + step.t_min, t_offset_ + step.t_max,
+                   medium_->sigma_t_ * cell.majorant, medium_->sigma_t_ * cell.mean};
+        return true;
+      }
+      return false;
+    }
+
+    /// The medium at a distance in the last segment; never above its majorant.
+    MediumProperties at(float t) const {
+      return medium_->properties(std::min(density(t), majorant_));
+    }
+    Rgb sigma_t(float t) const {
+      return medium_->sigma_t_ * std::min(density(t), majorant_);
+    }
+
+    float density(float t) const { return medium_->density(ray_.at(t - t_offset_)); }
+
+   private:
+    const GridMedium* medium_;
+    GridRay ray_;
+    float t_offset_ = 0;
+    float majorant_ = 0;  // of the density in the last segment
+    CellWalk walk_;
+  };
+
+  MediumProperties at(Vec3 p) const { return properties(density(space_.point(p))); }
+  Segments segments(const Ray& ray, float t_max) const { return {*this, ray, t_max}; }
+  bool is_emissive() const { return !is_black(properties_.sigma_a * properties_.Le); }
+  bool is_grey() const {
+    return tyndall::is_grey(properties_.sigma_a) && tyndall::is_grey(properties_.sigma_s);
+  }
   const PhaseFunction& phase() const { return phase_; }
-  Bounds3 world_bounds() const;
+  /// Of the box; empty if the medium is.
+  Bounds3 world_bounds() const { return world_bounds_; }
 
  private:
+  float density(Vec3 p_grid) const {
+    return box_.contains(p_grid) ? density_->interpolate(p_grid) : 0;
+  }
+  MediumProperties properties(float density) const {
+    return {properties_.sigma_a * density, properties_.sigma_s * density, properties_.Le};
+  }
+
+  std::shared_ptr<const BrickGrid> density_;
+  std::shared_ptr<const MajorantGrid> majorants_;
+  GridSpace space_;
+  Bounds3 box_;  // in grid space
+  Bounds3 world_bounds_;
+  MediumProperties properties_;
+  Rgb sigma_t_;
   PhaseFunction phase_;
-  // The owner of this file completes the representation.
 };
 
 }  // namespace tyndall

@@ -12,16 +12,17 @@
 
 namespace tyndall {
 
-/// A participating medium: properties at a point, and a piecewise constant majorant along a ray.
-/// Tracking is not its business; see media/tracking.h. Immutable, safe to share between threads.
+/// A participating medium: properties at a point, and a piecewise constant majorant along a
+/// ray. Tracking is not its business; see media/tracking.h. Immutable, safe to share
+/// between threads.
 ///
 /// Every medium type M of the set provides
 ///   MediumProperties at(Vec3 p) const;                     p in world space
 ///   M::Segments segments(Ray ray, float t_max) const;      world space, in order, disjoint
 ///   bool is_emissive() const;  bool is_grey() const;       grey: all channels equal
 ///   const PhaseFunction& phase() const;
-/// Segments has  bool next(MediumSegment&)  that yields segments until it returns false; what
-/// no segment covers is empty space.
+/// Segments has  bool next(MediumSegment&)  that yields segments until it returns false;
+/// what no segment covers is empty space.
 using MediumVariant = std::variant<HomogeneousMedium, GridMedium>;
 
 class Medium {

@@ -18,7 +18,7 @@ struct MediumProperties {
 struct MediumSegment {
   float t_min, t_max;  ///< [scene units]
   Rgb majorant;        ///< >= sigma_t everywhere on the stretch [1/scene unit]
-  Rgb mean;            ///< approximate mean of sigma_t, positive wherever sigma_t is: the proxy
+  Rgb mean;  ///< approximate mean of sigma_t, positive wherever sigma_t is: the proxy
 };
 
 }  // namespace tyndall

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cassert>
+#include <cmath>
 #include <optional>
 #include <variant>
 
+#include "tyndall/math/constants.h"
+#include "tyndall/math/frame.h"
 #include "tyndall/math/vec.h"
 
 namespace tyndall {
@@ -18,35 +22,61 @@ struct PhaseSample {
 /// Scatters into all directions alike.
 class IsotropicPhase {
  public:
-  float eval(Vec3 wo, Vec3 wi) const;
-  float pdf(Vec3 wo, Vec3 wi) const;
-  std::optional<PhaseSample> sample(Vec3 wo, Vec2 u) const;
+  float eval(Vec3 /*wo*/, Vec3 /*wi*/) const { return inv_4pi; }
+  float pdf(Vec3 /*wo*/, Vec3 /*wi*/) const { return inv_4pi; }
+  std::optional<PhaseSample> sample(Vec3 /*wo*/, Vec2 u) const {
+    const Vec3 wi = spherical_direction(1 - 2 * u.x, 2 * pi * u.y);
+    return PhaseSample{.wi = wi, .value = inv_4pi, .pdf = inv_4pi};
+  }
   float mean_cosine() const { return 0; }
 };
 
 /// Henyey-Greenstein phase function [HG41].
 ///
-/// `wo` and `wi` are unit vectors that point away from the scattering point, so light that is
-/// not deflected has wi == -wo. `g` is the mean cosine of the deflection: g > 0 scatters forward.
+/// `wo` and `wi` are unit vectors that point away from the scattering point, so light that
+/// is not deflected has wi == -wo. `g` is the mean cosine of the deflection: g > 0 scatters
+/// forward.
 class HenyeyGreenstein {
  public:
   /// Precondition: -1 < g < 1. The scene loader reports anything else.
-  explicit HenyeyGreenstein(float g);
+  explicit HenyeyGreenstein(float g) : g_(g) { assert(-1 < g && g < 1); }
 
   /// p(wo, wi) [1/sr]; integrates to one over all wi.
-  float eval(Vec3 wo, Vec3 wi) const;
+  float eval(Vec3 wo, Vec3 wi) const {
+    // 1 + g^2 - 2 g cos = (1 - |g|)^2 + |g| |wi +- wo|^2 for unit vectors: nothing cancels
+    // where the lobe is sharp.
+    const float d = sqr(1 - magnitude(g_)) +
+                    magnitude(g_) * length_squared(wi + wo * std::copysign(1.0f, g_));
+    return inv_4pi * (1 - g_) * (1 + g_) / (d * std::sqrt(d));
+  }
   /// Density with which sample() draws wi [1/sr].
-  float pdf(Vec3 wo, Vec3 wi) const;
+  float pdf(Vec3 wo, Vec3 wi) const { return eval(wo, wi); }
   /// Draws wi in proportion to eval(). Never empty.
-  std::optional<PhaseSample> sample(Vec3 wo, Vec2 u) const;
+  std::optional<PhaseSample> sample(Vec3 wo, Vec2 u) const {
+    const Vec3 local = spherical_direction(sample_cosine(u.x), 2 * pi * u.y);
+    const Vec3 wi = Frame::from_z(-wo).to_world(local);
+    const float p = eval(wo, wi);
+    return PhaseSample{.wi = wi, .value = p, .pdf = p};
+  }
   float mean_cosine() const { return g_; }
+
+  /// The cosine of a deflection drawn from the phase function.
+  float sample_cosine(float u) const {
+    // Inverting the CDF in s = 2 u - 1 gives the textbook
+    //   cos = (1 + g^2 - ((1 - g^2) / (1 + g s))^2) / (2 g),
+    // 0/0 at g = 0. With m = (s + g) / (1 + g s) the bracket is 1 - g m and g cancels, so
+    // g = 0 needs no special case.
+    const float s = 2 * u - 1;
+    const float m = (s + g_) / (1 + g_ * s);
+    return m + 0.5f * g_ * (1 - m * m);
+  }
 
  private:
   float g_;
 };
 
-/// The closed set of phase functions. Adding one means: the class, this line, and a row in the
-/// chi-square test.
+/// The closed set of phase functions. Adding one means: the class, this line, and a row in
+/// the chi-square test.
 using PhaseFunctionVariant = std::variant<IsotropicPhase, HenyeyGreenstein>;
 
 /// Any phase function, by value; cheap to copy.
@@ -56,11 +86,19 @@ class PhaseFunction {
   template <typename T>
   PhaseFunction(T phase) : phase_(phase) {}  // NOLINT: conversion is the point
 
-  float eval(Vec3 wo, Vec3 wi) const;
-  float pdf(Vec3 wo, Vec3 wi) const;
-  std::optional<PhaseSample> sample(Vec3 wo, Vec2 u) const;
+  float eval(Vec3 wo, Vec3 wi) const {
+    return std::visit([&](const auto& p) { return p.eval(wo, wi); }, phase_);
+  }
+  float pdf(Vec3 wo, Vec3 wi) const {
+    return std::visit([&](const auto& p) { return p.pdf(wo, wi); }, phase_);
+  }
+  std::optional<PhaseSample> sample(Vec3 wo, Vec2 u) const {
+    return std::visit([&](const auto& p) { return p.sample(wo, u); }, phase_);
+  }
   /// Mean cosine of the deflection, in (-1, 1).
-  float mean_cosine() const;
+  float mean_cosine() const {
+    return std::visit([](const auto& p) { return p.mean_cosine(); }, phase_);
+  }
 
  private:
   PhaseFunctionVariant phase_;
