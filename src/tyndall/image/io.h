@@ -10,7 +10,7 @@ namespace tyndall {
 
 struct WriteOptions {
   bool half = false;  ///< EXR: 16-bit channels (depth, spp and variance stay float)
-  ToneMapping tone;   ///< PNG
+  ToneMapping tone = {};   ///< PNG
 };
 
 /// Reads EXR (any layers, tiled or scanline, luminance-chroma too), PNG (sRGB to linear),
