@@ -8,8 +8,8 @@
 
 namespace tyndall {
 
-/// A bijection of 64-bit numbers without visible structure (the finaliser of MurmurHash3, with
-/// the constants of Stafford's variant 13).
+/// A bijection of 64-bit numbers without visible structure (the finaliser of MurmurHash3,
+/// with the constants of Stafford's variant 13).
 constexpr uint64_t mix_bits(uint64_t x) {
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
   x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
@@ -20,7 +20,8 @@ constexpr uint64_t mix_bits(uint64_t x) {
 template <typename... Ts>
 constexpr uint64_t hash(Ts... values) {
   uint64_t h = 0x9e3779b97f4a7c15u;
-  ((h = mix_bits(h ^ (static_cast<uint64_t>(values) + 0x9e3779b97f4a7c15u + (h << 6)))), ...);
+  ((h = mix_bits(h ^ (static_cast<uint64_t>(values) + 0x9e3779b97f4a7c15u + (h << 6)))),
+   ...);
   return h;
 }
 
@@ -30,7 +31,8 @@ constexpr float uniform_float(uint32_t bits) {
 }
 
 /// A stream of uniform numbers that is a pure function of its key and a counter: the n-th
-/// number of a key is the same on every thread and machine (SplitMix64). Cheap to make and copy.
+/// number of a key is the same on every thread and machine (SplitMix64). Cheap to make and
+/// copy.
 class RandomStream {
  public:
   explicit constexpr RandomStream(uint64_t key) : state_(mix_bits(key)) {}

@@ -13,15 +13,17 @@ enum class SamplerKind {
   sobol,        ///< shuffled, Owen-scrambled Sobol pairs [Burley20]; needs no sample count
 };
 
-/// The uniform numbers of one path. A pure function of its arguments and of the order of calls,
-/// whatever thread asks: sample `index` of `pixel` is the same in every run with the same seed.
+/// The uniform numbers of one path. A pure function of its arguments and of the order of
+/// calls, whatever thread asks: sample `index` of `pixel` is the same in every run with the
+/// same seed.
 class Sampler {
  public:
   Sampler(SamplerKind kind, uint64_t seed, Vec2i pixel, uint32_t index);
 
   /// Uniform in [0, 1); takes one dimension.
   float next_1d();
-  /// Uniform in [0, 1)^2; takes one dimension pair, well distributed over the pixel's samples.
+  /// Uniform in [0, 1)^2; takes one dimension pair, well distributed over the pixel's
+  /// samples.
   Vec2 next_2d();
   /// A stream for loops of unknown length (tracking), independent of all other dimensions.
   RandomStream fork();
@@ -30,7 +32,7 @@ class Sampler {
   SamplerKind kind_;
   uint32_t index_;
   uint32_t dimension_ = 0;
-  uint64_t key_;  // hash of seed and pixel
+  uint64_t key_;  // hash of seed and pixel, and of the index if independent
 };
 
 }  // namespace tyndall

@@ -42,19 +42,22 @@ struct PiecewiseSample {
 class PiecewiseConstant1D {
  public:
   PiecewiseConstant1D() = default;
+  /// Values are non-negative and finite, and not empty; if all are zero, the density is
+  /// one.
   explicit PiecewiseConstant1D(std::span<const float> values);
 
   PiecewiseSample sample(float u) const;
-  float pdf(float x) const;
-  float invert(float x) const;  ///< the u that sample() maps to x
-  float integral() const { return integral_; }
+  float pdf(float x) const;                     ///< zero outside [0, 1]
+  float invert(float x) const;                  ///< the u that sample() maps to x in [0, 1]
+  float integral() const { return integral_; }  ///< of the values over [0, 1]
 
  private:
-  std::vector<float> values_;
-  std::vector<float> cdf_;  // exclusive, size + 1
+  std::vector<float> densities_;
+  std::vector<float> cdf_;  // inclusive, last is exactly 1
   float integral_ = 0;
 };
 
+/// A position drawn from a piecewise constant density on the unit square.
 struct PiecewiseSample2D {
   Vec2 p;
   float pdf;
@@ -64,11 +67,12 @@ struct PiecewiseSample2D {
 class PiecewiseConstant2D {
  public:
   PiecewiseConstant2D() = default;
+  /// Values are non-negative and finite, `width` times `height` of them, both positive.
   PiecewiseConstant2D(std::span<const float> values, int width, int height);
 
   PiecewiseSample2D sample(Vec2 u) const;
-  float pdf(Vec2 p) const;
-  Vec2 invert(Vec2 p) const;
+  float pdf(Vec2 p) const;    ///< zero outside the square
+  Vec2 invert(Vec2 p) const;  ///< the u that sample() maps to p in the square
 
  private:
   std::vector<PiecewiseConstant1D> rows_;
