@@ -10,6 +10,7 @@
 
 #include "apps/tyndall/nearest_name.h"
 #include "apps/tyndall/parse_values.h"
+#include "apps/tyndall/shell_line.h"
 
 namespace tyndall::app {
 
@@ -20,13 +21,15 @@ constexpr size_t name_width = 34, help_width = 66;
 /// "--long-name" of CLI11's list of names, or the only name there is.
 std::string long_name(const std::string& names) {
   const size_t begin = names.find("--");
-  return begin == std::string::npos ? names : names.substr(begin, names.find(',', begin) - begin);
+  return begin == std::string::npos ? names
+                                    : names.substr(begin, names.find(',', begin) - begin);
 }
 
 std::string environment_name(const std::string& names) {
   std::string result = "TYNDALL_";
   for (const char c : long_name(names).substr(2))
-    result += c == '-' ? '_' : static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    result +=
+        c == '-' ? '_' : static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   return result;
 }
 
@@ -54,7 +57,7 @@ struct MakeParser {
   ArgumentParser operator()(std::optional<Value>* target) const {
     return [target](const std::string& text) {
       Value value{};
-      MakeParser{}(&value)(text);
+      MakeParser{} (&value)(text);
       *target = value;
     };
   }
@@ -68,13 +71,15 @@ struct MakeParser {
 };
 
 void check_choice(const std::string& text, const std::vector<std::string>& choices) {
-  if (choices.empty() || std::find(choices.begin(), choices.end(), text) != choices.end()) return;
+  if (choices.empty() || std::find(choices.begin(), choices.end(), text) != choices.end())
+    return;
   throw std::invalid_argument(
       fmt::format("must be one of {}, got '{}'", fmt::join(choices, ", "), text));
 }
 
 /// The name to blame: the option, or the environment variable that the text came from.
-std::string blame(const std::string& name, const std::string& variable, const std::string& text) {
+std::string blame(const std::string& name, const std::string& variable,
+                  const std::string& text) {
   const char* value = variable.empty() ? nullptr : std::getenv(variable.c_str());
   return value && text == value ? variable : name;
 }
@@ -84,7 +89,8 @@ CLI::Option* add(CLI::App& app, const std::string& names, const std::string& var
                  const ArgumentStyle& style) {
   const bool is_list = std::holds_alternative<std::vector<std::string>*>(target);
   const auto read = [name = long_name(names), variable, choices = style.choices,
-                     parse = std::visit(MakeParser{}, target)](const CLI::results_t& texts) {
+                     parse =
+                         std::visit(MakeParser{}, target)](const CLI::results_t& texts) {
     for (const std::string& text : texts) {
       try {
         check_choice(text, choices);
@@ -96,8 +102,9 @@ CLI::Option* add(CLI::App& app, const std::string& names, const std::string& var
     return true;
   };
   CLI::Option* option = app.add_option(names, read, wrap(help));
-  option->option_text(style.choices.empty() ? style.value
-                                            : fmt::format("{}", fmt::join(style.choices, "|")));
+  option->option_text(style.choices.empty()
+                          ? style.value
+                          : fmt::format("{}", fmt::join(style.choices, "|")));
   option->type_size(1)->group(style.group)->required(style.required)->envname(variable);
   option->multi_option_policy(is_list ? CLI::MultiOptionPolicy::TakeAll
                                       : CLI::MultiOptionPolicy::TakeLast);
@@ -132,8 +139,8 @@ Command& Command::positional(const std::string& name, ArgumentTarget target,
   return *this;
 }
 
-Command& Command::option(const std::string& names, ArgumentTarget target, const std::string& help,
-                         const ArgumentStyle& style) {
+Command& Command::option(const std::string& names, ArgumentTarget target,
+                         const std::string& help, const ArgumentStyle& style) {
   // One value for each occurrence, so that "-o a.exr scene.pbrt" leaves the scene alone.
   add(*app_, names, environment_name(names), target, help, style)
       ->expected(1)
@@ -166,13 +173,15 @@ Program::Program(const std::string& name, const std::string& description,
   app_->get_formatter()->column_width(name_width);
   app_->get_formatter()->label("SUBCOMMAND", "COMMAND");
   app_->get_formatter()->label("OPTIONS", "options");
-  app_->set_version_flag("--version", version, "Print the version and what it was built with");
+  app_->set_version_flag("--version", version,
+                         "Print the version and what it was built with");
   app_->set_help_flag("-h,--help", "Print this help");
   app_->require_subcommand(1);
-  app_->footer(fmt::format("'{} COMMAND --help' explains a command. Every option --some-name may "
-                           "also be given as\nthe environment variable TYNDALL_SOME_NAME; the "
-                           "command line wins.\n\n{}",
-                           name, exit_code_help()));
+  app_->footer(
+      fmt::format("'{} COMMAND --help' explains a command. Every option --some-name may "
+                  "also be given as\nthe environment variable TYNDALL_SOME_NAME; the "
+                  "command line wins.\n\n{}",
+                  name, exit_code_help()));
 }
 
 Program::~Program() = default;
@@ -184,6 +193,7 @@ Command Program::add_command(const std::string& name, const std::string& descrip
 }
 
 ExitCode Program::run(int argc, const char* const* argv) {
+  command_line_ = shell_line(argc, argv);
   try {
     app_->parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -200,8 +210,9 @@ ExitCode Program::explain(const CLI::ParseError& error) const {
   const CLI::App& command = innermost(*app_);
   const bool is_extra = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
   const std::string message = is_extra ? unexpected_argument(command) : error.what();
-  const std::string full_name =
-      &command == app_.get() ? app_->get_name() : app_->get_name() + " " + command.get_name();
+  const std::string full_name = &command == app_.get()
+                                    ? app_->get_name()
+                                    : app_->get_name() + " " + command.get_name();
   fmt::print(stderr, "error: {}\nSee '{} --help'.\n", message, full_name);
   return ExitCode::usage;
 }

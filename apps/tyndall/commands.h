@@ -3,9 +3,9 @@
 
 #include "apps/tyndall/arguments.h"
 
-/// The subcommands: each in a file of its own, <name>_command.cpp, which declares its arguments
-/// through Command and hands over what to run. To add one: the file, a line here, a line in
-/// main.cpp and in CMakeLists.txt.
+/// The subcommands: each in a file of its own, <name>_command.cpp, which declares its
+/// arguments through Command and hands over what to run. To add one: the file, a line here,
+/// a line in main.cpp and in CMakeLists.txt.
 namespace tyndall::app {
 
 void add_render_command(Program& program);

@@ -47,7 +47,8 @@ std::string exit_code_help() {
          "  1  wrong arguments\n"
          "  2  a scene or another input is missing or wrong\n"
          "  3  not enough memory\n"
-         "  4  stopped by --time or a signal; the outputs are valid and hold what was done\n"
+         "  4  stopped by --time or a signal; the outputs are valid and hold what was "
+         "done\n"
          "  5  an output cannot be written\n"
          "  6  a check that the arguments asked for does not hold\n"
          "  130, 143  killed by a second SIGINT or SIGTERM\n";

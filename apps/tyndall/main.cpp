@@ -4,6 +4,8 @@
 
 int main(int argc, char** argv) {
   using namespace tyndall::app;
-  Program program("tyndall", "A path tracer for light in fog, smoke and clouds.", version_text());
+  Program program("tyndall", "A path tracer for light in fog, smoke and clouds.",
+                  version_text());
+  add_render_command(program);
   return static_cast<int>(program.run(argc, argv));
 }

@@ -60,10 +60,14 @@ std::optional<std::vector<Number>> to_numbers(const std::string& text, char sepa
 
 double seconds_of_unit(char unit) {
   switch (unit) {
-    case 's': return 1;
-    case 'm': return 60;
-    case 'h': return 3600;
-    default: return 0;
+    case 's':
+      return 1;
+    case 'm':
+      return 60;
+    case 'h':
+      return 3600;
+    default:
+      return 0;
   }
 }
 
@@ -136,7 +140,8 @@ CropWindow parse_crop(const std::string& text) {
 
 Vec2i parse_pixel(const std::string& text) {
   const auto v = to_numbers<int>(text, ',', 2);
-  if (!v || (*v)[0] < 0 || (*v)[1] < 0) reject("a pixel x,y counted from the top left", text);
+  if (!v || (*v)[0] < 0 || (*v)[1] < 0)
+    reject("a pixel x,y counted from the top left", text);
   return {(*v)[0], (*v)[1]};
 }
 

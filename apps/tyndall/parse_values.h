@@ -7,8 +7,8 @@
 #include "tyndall/integrators/render_settings.h"
 #include "tyndall/math/vec.h"
 
-/// Readers of argument texts. All throw std::invalid_argument with a sentence that follows the
-/// argument's name: "must be a whole number, got 'x'".
+/// Readers of argument texts. All throw std::invalid_argument with a sentence that follows
+/// the argument's name: "must be a whole number, got 'x'".
 namespace tyndall::app {
 
 /// A number of type int, uint32_t, uint64_t, float or double; the whole text must be one.
@@ -24,7 +24,8 @@ Vec2i parse_size(const std::string& text);
 /// A part of the picture.
 struct CropWindow {
   float x0 = 0, y0 = 0, x1 = 1, y1 = 1;
-  bool is_fraction = true;  ///< all values are at most 1: fractions of the picture, not pixels
+  bool is_fraction =
+      true;  ///< all values are at most 1: fractions of the picture, not pixels
 
   /// The pixels [min, max) that the window covers in a picture of `size`; may be empty.
   std::pair<Vec2i, Vec2i> pixels(Vec2i size) const;

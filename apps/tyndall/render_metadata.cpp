@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tyndall/render_metadata.h"
+
+#include <fmt/format.h>
+
+#include "apps/tyndall/version.h"
+
+namespace tyndall::app {
+
+namespace {
+
+std::vector<float> flatten(const Matrix4& matrix) {
+  std::vector<float> values;
+  for (const auto& row : matrix) values.insert(values.end(), row.begin(), row.end());
+  return values;
+}
+
+}  // namespace
+
+void add_metadata(Image& image, const PerspectiveCamera& camera,
+                  const RenderSettings& settings, const RenderStatistics& statistics,
+                  const std::string& scene_path, const std::string& command_line) {
+  image.text["software"] = version_name();
+  image.text["commandLine"] = command_line;
+  image.text["scene"] = scene_path;
+  image.text["integrator"] = settings.integrator;
+  image.text["sampler"] = settings.sampler == SamplerKind::sobol ? "sobol" : "independent";
+  image.text["seed"] = std::to_string(settings.seed);
+  image.numbers["renderTimeSeconds"] = static_cast<float>(statistics.seconds);
+  image.numbers["samplesPerPixel"] = static_cast<float>(statistics.samples_per_pixel);
+  image.numbers["rejectedSamples"] = static_cast<float>(statistics.rejected.total());
+  image.matrices["worldToCamera"] = flatten(camera.camera_from_world().matrix());
+  image.matrices["worldToNDC"] = flatten(camera.ndc_from_world().matrix());
+}
+
+}  // namespace tyndall::app

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tyndall/write_outputs.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <filesystem>
+
+#include "apps/tyndall/exit_code.h"
+
+namespace tyndall::app {
+
+namespace {
+
+/// Saves what could not be written where it should go; returns a sentence about it.
+std::string rescue(const Image& image) {
+  try {
+    const std::filesystem::path folder = std::filesystem::temp_directory_path();
+    const std::string path = folder / fmt::format("tyndall-{}.exr", getpid());
+    write_image(image, path);
+    return "the image is saved as " + path;
+  } catch (const std::exception& error) {
+    return fmt::format("saving it elsewhere failed too: {}", error.what());
+  }
+}
+
+}  // namespace
+
+void check_outputs(const std::vector<std::string>& paths) {
+  for (const std::string& path : paths) {
+    try {
+      check_writable(path);
+    } catch (const std::runtime_error& error) {
+      throw OutputError(error.what());
+    }
+  }
+}
+
+void write_outputs(const Image& image, const std::vector<std::string>& paths,
+                   const WriteOptions& options) {
+  std::string failures;
+  for (const std::string& path : paths) {
+    try {
+      write_image(image, path, options);
+    } catch (const std::runtime_error& error) {
+      failures += (failures.empty() ? "" : "; ") + std::string(error.what());
+    }
+  }
+  if (!failures.empty()) throw OutputError(fmt::format("{}; {}", failures, rescue(image)));
+}
+
+}  // namespace tyndall::app

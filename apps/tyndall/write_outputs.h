@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tyndall/image/io.h"
+
+namespace tyndall::app {
+
+/// Throws OutputError if one of the files could not be written. Leaves nothing behind.
+void check_outputs(const std::vector<std::string>& paths);
+
+/// Writes all the files. If one fails, the image goes as EXR to the folder of temporary
+/// files instead, the others are still written, and OutputError tells all that.
+void write_outputs(const Image& image, const std::vector<std::string>& paths,
+                   const WriteOptions& options);
+
+}  // namespace tyndall::app
