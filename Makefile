@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: Apache-2.0
+# Two commands for a fresh clone: `make demo` and `make test`. Everything else is CMake's.
+
+BUILD := build/release
+OUT := out
+JOBS := $(shell nproc)
+
+.PHONY: help setup build demo test clean
+
+help:
+	@echo "make demo    install what is missing, build, render a picture of light in dusty air"
+	@echo "make test    install what is missing, build everything, run every test"
+	@echo "make setup   install the missing Debian packages (tools/debian-packages.txt)"
+	@echo "make build   build everything in $(BUILD)"
+	@echo "make clean   remove build/ and $(OUT)/"
+
+setup:
+	@tools/setup.sh
+
+# Configured once; after that Ninja runs CMake again when it has to.
+$(BUILD)/build.ninja: | setup
+	cmake --preset release
+
+build: setup $(BUILD)/build.ninja
+	cmake --build $(BUILD)
+
+demo: setup $(BUILD)/build.ninja
+	cmake --build $(BUILD) --target tyndall_cli
+	@mkdir -p $(OUT)
+	$(BUILD)/tyndall render scenes/blinds.pbrt -o $(OUT)/demo.exr -o $(OUT)/demo.png
+	@echo
+	@echo "The picture is $(OUT)/demo.png; $(OUT)/demo.exr holds it with all its layers."
+
+test: build
+	ctest --preset release -j $(JOBS)
+
+clean:
+	rm -rf build $(OUT)
