@@ -117,16 +117,45 @@ const CLI::App& innermost(const CLI::App& app) {
   return chosen.empty() ? app : *chosen.front();
 }
 
-/// The first argument that no option took, with the nearest option's name.
-std::string unexpected_argument(const CLI::App& app) {
-  const std::string argument = app.remaining(true).front();
+std::string full_name(const CLI::App& command) {
+  const CLI::App* parent = command.get_parent();
+  return (parent ? parent->get_name() + " " : "") + command.get_name();
+}
+
+/// What may stand where an unknown word stands: options, or subcommands.
+std::vector<std::string> known_names(const CLI::App& command, bool is_option) {
   std::vector<std::string> names;
-  for (const CLI::Option* option : app.get_options())
-    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-  const std::string typed = argument.substr(0, argument.find('='));
-  const std::string nearest = nearest_name(typed, names);
-  return fmt::format("unknown argument '{}'{}", argument,
+  if (is_option) {
+    for (const CLI::Option* option : command.get_options())
+      for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  } else {
+    for (const CLI::App* child : command.get_subcommands(nullptr))
+      names.push_back(child->get_name());
+  }
+  return names;
+}
+
+/// The first word that nothing took, with the nearest name that there is.
+std::string describe_unknown(const std::string& word, const CLI::App& command) {
+  const std::string nearest =
+      nearest_name(word.substr(0, word.find('=')), known_names(command, word[0] == '-'));
+  const char* kind = word[0] != '-' && !command.get_parent() ? "command" : "argument";
+  return fmt::format("unknown {} '{}'{}", kind, word,
                      nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest));
+}
+
+/// CLI11's complaint in our words, where those are better.
+std::string describe(const CLI::ParseError& error, const CLI::App& command) {
+  const std::vector<std::string> rest = command.remaining(true);
+  if (!rest.empty() && !rest.front().empty())
+    return describe_unknown(rest.front(), command);
+  if (error.get_name() == "ArgumentMismatch") {
+    const std::string text = error.what();
+    return text.substr(0, text.find(':')) + " requires a value";
+  }
+  if (!command.get_parent() && error.get_name() == "RequiredError")
+    return "a command is required";
+  return error.what();
 }
 
 }  // namespace
@@ -208,12 +237,8 @@ ExitCode Program::explain(const CLI::ParseError& error) const {
     return ExitCode::done;
   }
   const CLI::App& command = innermost(*app_);
-  const bool is_extra = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
-  const std::string message = is_extra ? unexpected_argument(command) : error.what();
-  const std::string full_name = &command == app_.get()
-                                    ? app_->get_name()
-                                    : app_->get_name() + " " + command.get_name();
-  fmt::print(stderr, "error: {}\nSee '{} --help'.\n", message, full_name);
+  fmt::print(stderr, "error: {}\nSee '{} --help'.\n", describe(error, command),
+             full_name(command));
   return ExitCode::usage;
 }
 

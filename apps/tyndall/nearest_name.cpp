@@ -28,7 +28,8 @@ size_t edit_distance(const std::string& a, const std::string& b) {
 
 std::string nearest_name(const std::string& typed, const std::vector<std::string>& names) {
   std::string best;
-  size_t least = std::max<size_t>(1, typed.size() / 3) + 1;
+  // Two swapped letters are a distance of two.
+  size_t least = (typed.size() < 4 ? 1 : std::max<size_t>(2, typed.size() / 3)) + 1;
   for (const std::string& name : names) {
     const size_t distance = edit_distance(typed, name);
     if (distance < least) {

@@ -18,12 +18,8 @@ double per_second(int64_t count, double seconds) {
   return seconds > 0 ? static_cast<double>(count) / seconds : 0;
 }
 
-nlohmann::json pair(Vec2i v) {
-  return {v.x, v.y};
-}
-nlohmann::json triple(Rgb c) {
-  return {c.r, c.g, c.b};
-}
+nlohmann::json pair(Vec2i v) { return {v.x, v.y}; }
+nlohmann::json triple(Rgb c) { return {c.r, c.g, c.b}; }
 
 /// Standard errors from the variance layer.
 Rgb standard_error(const Image& image, int x, int y) {

@@ -22,9 +22,7 @@ PerspectiveCamera::Settings with_default_window(PerspectiveCamera::Settings sett
   return settings;
 }
 
-bool is_near(float a, float b) {
-  return std::abs(a - b) <= 1e-5f * std::abs(a);
-}
+bool is_near(float a, float b) { return std::abs(a - b) <= 1e-5f * std::abs(a); }
 
 bool has_same_window(const PerspectiveCamera::Settings& a,
                      const PerspectiveCamera::Settings& b) {

@@ -42,12 +42,8 @@ StopOnSignal::StopOnSignal() {
   install(handle_stop_signal);
 }
 
-StopOnSignal::~StopOnSignal() {
-  install(SIG_DFL);
-}
+StopOnSignal::~StopOnSignal() { install(SIG_DFL); }
 
-const std::atomic<bool>& StopOnSignal::flag() const {
-  return stop_requested;
-}
+const std::atomic<bool>& StopOnSignal::flag() const { return stop_requested; }
 
 }  // namespace tyndall::app

@@ -18,9 +18,7 @@ std::string compiler() {
 
 }  // namespace
 
-std::string version_name() {
-  return "tyndall " TYNDALL_VERSION;
-}
+std::string version_name() { return "tyndall " TYNDALL_VERSION; }
 
 // The numbers come from CMake, so that this file needs no header of the libraries.
 std::string version_text() {
