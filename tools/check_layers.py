@@ -42,7 +42,7 @@ LIBRARIES = {
 }
 
 # Learning is testable without a scene: these files know mathematics and sampling only.
-PURE = re.compile(r"tyndall/guiding/(gaussian_mixture|online_em)")
+PURE = re.compile(r"tyndall/guiding/(gaussian_mixture|online_em|vector_exp)")
 
 STANDARD = re.compile(r"[a-z_0-9]+$|(sys|unistd|fcntl|sched|dlfcn)(/[a-z]+)?\.h$|[a-z0-9]+intrin\.h$")
 INCLUDE = re.compile(r'^\s*#\s*include\s+([<"])([^>"]+)[>"]')
