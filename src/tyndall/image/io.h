@@ -9,8 +9,8 @@
 namespace tyndall {
 
 struct WriteOptions {
-  bool half = false;  ///< EXR: 16-bit channels (depth, spp and variance stay float)
-  ToneMapping tone = {};   ///< PNG
+  bool half = false;      ///< EXR: 16-bit channels (depth, spp and variance stay float)
+  ToneMapping tone = {};  ///< PNG
 };
 
 /// Reads EXR (any layers, tiled or scanline, luminance-chroma too), PNG (sRGB to linear),

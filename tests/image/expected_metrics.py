@@ -1,0 +1,47 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Prints the numbers that metrics_test.cpp expects.
+
+Independent of the program: NumPy for the plain metrics, the authors' flip-evaluator 1.7
+(pip install flip-evaluator) for FLIP. The images are given by formulas that the test repeats.
+"""
+import flip_evaluator
+import numpy as np
+
+WIDTH, HEIGHT, EPSILON = 48, 40, 0.01
+
+
+def images():
+    y, x, c = np.meshgrid(np.arange(HEIGHT), np.arange(WIDTH), np.arange(3), indexing="ij")
+    reference = (0.55 + 0.45 * np.sin(0.4 * x + 0.25 * y + 1.3 * c)) * 2.0 ** ((x - 24) / 12)
+    noise = np.sin(12.9898 * x + 78.233 * y + 37.719 * c)
+    return (reference * (1 + 0.25 * noise)).astype(np.float32), reference.astype(np.float32)
+
+
+def srgb(x):
+    x = np.clip(x, 0, 1)
+    return np.where(x <= 0.0031308, 12.92 * x, 1.055 * x ** (1 / 2.4) - 0.055)
+
+
+def main():
+    image, reference = images()
+    a, b = image.astype(np.float64), reference.astype(np.float64)
+    relative = ((a - b) ** 2 / (b**2 + EPSILON)).mean(axis=2).ravel()
+    kept = relative.size - int(np.ceil(1e-3 * relative.size))
+    print("mse", ((a - b) ** 2).mean())
+    print("rel_mse", relative.mean())
+    print("rel_mse_trimmed", np.sort(relative)[:kept].mean())
+    print("smape", (2 * np.abs(a - b) / (np.abs(a) + np.abs(b))).mean())
+    print("psnr", -10 * np.log10(((srgb(a) - srgb(b)) ** 2).mean()))
+    absolute = np.abs(a - b).mean(axis=2).ravel()
+    print("percentile", np.quantile(absolute, 0.999, method="inverted_cdf"))
+    print("mean", a.mean(), b.mean())
+    clipped = [np.clip(i, 0, 1) for i in (reference, image)]
+    ldr, mean, _ = flip_evaluator.evaluate(*clipped, "LDR", inputsRGB=False, applyMagma=False)
+    print("ldr_flip", mean, ldr[20, 30, 0], ldr[0, 0, 0], ldr[39, 47, 0])
+    hdr, mean, parameters = flip_evaluator.evaluate(reference, image, "HDR", applyMagma=False)
+    print("hdr_flip", mean, hdr[20, 30, 0], hdr[0, 0, 0], hdr[39, 47, 0], parameters)
+
+
+if __name__ == "__main__":
+    main()
