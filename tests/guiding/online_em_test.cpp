@@ -133,7 +133,7 @@ TEST(BatchEmTest, MaximizeIsStationary) {
   const GaussianMixture best = maximize(s, start, settings);
   const double top = penalized_log_likelihood(best, points, settings);
   for (int i = 0; i < 5; ++i)
-    for (const float step : {-0.02f, 0.02f}) {
+    for (const float step : {-0.002f, 0.002f}) {
       GaussianComponent c = best.component(0);
       float* numbers[] = {&c.mean.x, &c.mean.y, &c.covariance.xx, &c.covariance.xy,
                           &c.covariance.yy};
