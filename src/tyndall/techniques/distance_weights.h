@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cmath>
+
+#include "tyndall/techniques/distance_taps.h"
+#include "tyndall/techniques/fast_exp.h"
+
+namespace tyndall {
+
+/// What a distance technique leaves out of an integrand, at its taps: the argument of
+/// BinnedDistance. Any further factor, such as predicted visibility, is multiplied in by hand.
+template <int K>
+struct DistanceWeights {
+  alignas(32) std::array<float, K> values;
+
+  static DistanceWeights ones() {
+    DistanceWeights weights;
+    weights.values.fill(1);
+    return weights;
+  }
+
+  /// Transmittance along the ray and from the tap to the pivot in a homogeneous medium.
+  DistanceWeights& multiply_transmittance(const DistanceTaps<K>& taps, float sigma_t) {
+    for (int i = 0; i < K; ++i)
+      values[i] *= fast_exp(-sigma_t * (taps.t[i] + taps.distance[i]));
+    return *this;
+  }
+
+  /// exp(-depth): transmittance from optical depths, one per tap.
+  DistanceWeights& multiply_transmittance(const std::array<float, K>& optical_depth) {
+    for (int i = 0; i < K; ++i) values[i] *= fast_exp(-optical_depth[i]);
+    return *this;
+  }
+
+  /// The Henyey-Greenstein phase function of light from the pivot into the ray, up to a factor.
+  DistanceWeights& multiply_phase(const DistanceTaps<K>& taps, float g) {
+    if (g == 0) return *this;
+    const float a = 1 + g * g, b = 2 * g, floor = (1 - std::abs(g)) * (1 - std::abs(g));
+    for (int i = 0; i < K; ++i) {
+      const float x = a - b * taps.cos_alpha[i];
+      const float d = x > floor ? x : floor;
+      values[i] /= d * std::sqrt(d);
+    }
+    return *this;
+  }
+};
+
+}  // namespace tyndall

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "tyndall/techniques/distance_taps.h"
+#include "tyndall/techniques/pivot_segment.h"
+#include "tyndall/techniques/samples.h"
+#include "tyndall/techniques/scattering_tables.h"
+
+namespace tyndall {
+
+/// Draws the first of two scattering vertices on a ray, with density proportional to the light
+/// of a point source at `pivot` that, scattered once more on its way, arrives there and is
+/// scattered along the ray, without transmittance and visibility: F(alpha) / D, D the distance
+/// to the pivot and alpha its angle from the ray [Georgiev13]. In isotropic media that is 1 / D,
+/// uniform in l = asinh(s / h) = log(tan(alpha / 2)).
+///
+/// A value, built once per ray and pivot; `ray.d` is unit length. The stretch must be finite, as
+/// the integral grows with its logarithm. `tables` must outlive it.
+class DoubleScatteringDistance {
+ public:
+  DoubleScatteringDistance(const ScatteringTables& tables, const Ray& ray, Vec3 pivot,
+                           float t_min, float t_max)
+      : DoubleScatteringDistance(tables, PivotSegment(ray, pivot, t_min, t_max)) {}
+  DoubleScatteringDistance(const ScatteringTables& tables, const PivotSegment& segment)
+      : segment_(segment) {
+    if (!segment.is_proper() || !(segment.length() < infinity)) return;
+    length_ = density_or_zero(log_way(segment.length()));
+    if (!tables.is_isotropic()) {
+      const float l = std::log(segment.plus_near() > segment.h()
+                                   ? segment.plus_near() / segment.h()
+                                   : segment.h() / segment.minus_near());
+      fluence_ = tables.fluence().cursor(segment.is_forward() ? l : -l, !segment.is_forward());
+      is_tabulated_ = true;
+    }
+    integral_ = density_or_zero(is_tabulated_ ? fluence_.integral(length_) : length_);
+  }
+
+  /// The integral of F(alpha) / D over the stretch, F = 1 in isotropic media. Zero if empty.
+  float integral() const { return integral_; }
+
+  /// Empty if the stretch is empty, infinite, or runs through the pivot. t grows with u.
+  std::optional<DistanceSample> sample(float u) const {
+    if (!(integral_ > 0)) return std::nullopt;
+    const float part = segment_.from_near(u) * integral_;
+    const float way = is_tabulated_ ? fluence_.invert(part) : part;
+    const float t = segment_.t(segment_.offset_of_ratio(std::expm1(way)));
+    const float pdf = pdf_t(t);
+    if (!(pdf > 0)) return std::nullopt;
+    return DistanceSample{.t = t, .pdf_t = pdf};
+  }
+
+  /// Density of sample() at t [1/scene unit]; zero where it never samples.
+  float pdf_t(float t) const {
+    if (!(integral_ > 0) || !segment_.contains(t)) return 0;
+    const float offset = segment_.offset(t);
+    const float f = is_tabulated_ ? fluence_.value(log_way(offset)) : 1;
+    return density_or_zero(f / (integral_ * segment_.r(segment_.s(offset))));
+  }
+
+  /// The u that sample() maps to t, in [0, 1]; zero if the technique is empty.
+  float invert(float t) const {
+    if (!(integral_ > 0)) return 0;
+    const float way = log_way(std::clamp(segment_.offset(t), 0.0f, segment_.length()));
+    const float part = is_tabulated_ ? fluence_.integral(way) : way;
+    return segment_.from_near(std::min(part / integral_, 1.0f));
+  }
+
+  /// The points at u = (i + 1/2) / K of the isotropic technique; t to about 1e-5 of its range.
+  template <int K>
+  DistanceTaps<K> taps() const;
+
+  const PivotSegment& segment() const { return segment_; }
+
+ private:
+  /// l at an offset minus l at the near end: the logarithm of the ratio of r + s.
+  float log_way(float offset) const {
+    const float s = segment_.s(offset), r = segment_.r(s);
+    const float h = segment_.h();
+    const float plus = s > 0 ? r + s : h * h / (r - s);
+    // r + s changes by offset * (sum of r + s) / (sum of r): no difference is taken.
+    return std::log1p(offset * (1 + plus / segment_.plus_near()) / (r + segment_.r_near()));
+  }
+
+  PivotSegment segment_;
+  LinearTable::Cursor fluence_;
+  float length_ = 0, integral_ = 0;
+  bool is_tabulated_ = false;
+};
+
+template <int K>
+DistanceTaps<K> DoubleScatteringDistance::taps() const {
+  // r + s is a geometric sequence; each tap is the product of one of the first eight and the
+  // power of one ratio.
+  constexpr int lanes = 8;
+  static_assert(K % lanes == 0);
+  const float sign = segment_.is_forward() ? 1.0f : -1.0f;
+  const float step = length_ / K;
+  float ratio[lanes], inverse[lanes];  // of r + s to that of the near end
+  for (int i = 0; i < lanes; ++i) {
+    const float part = (static_cast<float>(i) + 0.5f) * step;
+    ratio[i] = std::exp(segment_.is_forward() ? part : length_ - part);
+    inverse[i] = 1 / ratio[i];
+  }
+  const float turn = std::exp(sign * lanes * step), inverse_turn = 1 / turn;
+  const float plus = segment_.plus_near(), minus = segment_.minus_near();
+  const float t_near = segment_.is_forward() ? segment_.t_min() : segment_.t_max();
+  const float s_near = segment_.s_near();
+  DistanceTaps<K> taps;
+  for (int block = 0; block < K / lanes; ++block) {
+    for (int i = 0; i < lanes; ++i) {
+      const int k = block * lanes + i;
+      const float p = plus * ratio[i], m = minus * inverse[i];
+      const float s = 0.5f * (p - m), r = 0.5f * (p + m);
+      taps.t[k] = t_near + sign * (s - s_near);
+      taps.distance[k] = r;
+      taps.cos_alpha[k] = -sign * s / r;
+      ratio[i] *= turn;
+      inverse[i] *= inverse_turn;
+    }
+  }
+  return taps;
+}
+
+}  // namespace tyndall

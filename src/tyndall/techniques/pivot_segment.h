@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "tyndall/geometry/ray.h"
+#include "tyndall/math/scalar.h"
+
+namespace tyndall {
+
+/// The stretch [t_min, t_max] of a ray as seen from a pivot, usually a point on a light: the
+/// coordinates that all distance techniques share. t_max may be infinite.
+///
+/// Positions are measured by their offset from that end of the stretch that is nearer to the
+/// foot of the perpendicular from the pivot, so that no difference of nearly equal numbers is
+/// ever taken: a stretch far from the pivot, or a pivot on the line of the ray, loses no
+/// digits. `s` is the position relative to the foot, counted in the direction away from that
+/// end; it grows with the offset, from s_near() on.
+class PivotSegment {
+ public:
+  PivotSegment(const Ray& ray, Vec3 pivot, float t_min, float t_max)
+      : t_min_(t_min), t_max_(t_max) {
+    // In double: the cross product cancels for a pivot near the ray, and squares overflow.
+    const double x = double(pivot.x) - ray.o.x, y = double(pivot.y) - ray.o.y,
+                 z = double(pivot.z) - ray.o.z;
+    const double dx = ray.d.x, dy = ray.d.y, dz = ray.d.z;
+    const double foot = x * dx + y * dy + z * dz;
+    const double cx = y * dz - z * dy, cy = z * dx - x * dz, cz = x * dy - y * dx;
+    const double h2 = cx * cx + cy * cy + cz * cz;
+    const double s_min = t_min - foot, s_max = t_max - foot;
+    is_forward_ = std::abs(s_min) <= std::abs(s_max);
+    const double s = is_forward_ ? s_min : -s_max;
+    const double r = std::sqrt(h2 + s * s);
+    h_ = static_cast<float>(std::sqrt(h2));
+    s_near_ = static_cast<float>(s);
+    r_near_ = static_cast<float>(r);
+    t_near_ = is_forward_ ? t_min : t_max;
+    length_ = t_max - t_min;
+    const double other = r + std::abs(s);
+    plus_near_ = static_cast<float>(s > 0 ? other : h2 / other);
+    minus_near_ = static_cast<float>(s > 0 ? h2 / other : other);
+  }
+
+  /// False if the stretch is empty, not a number, or runs through the pivot, where densities
+  /// in the inverse distance have no finite integral.
+  bool is_proper() const {
+    return length_ > 0 && t_min_ > -infinity && r_near_ > 0 && r_near_ < infinity &&
+           h_ < infinity && (h_ > 0 || s_near_ > 0);
+  }
+
+  float h() const { return h_; }            ///< distance of the pivot from the line
+  float s_near() const { return s_near_; }  ///< of the near end
+  float r_near() const { return r_near_; }  ///< distance of the pivot from the near end
+  float length() const { return length_; }  ///< largest offset, may be infinite
+  float t_min() const { return t_min_; }
+  float t_max() const { return t_max_; }
+  /// The near end is t_min, and offsets grow with t. Else it is t_max, and they fall.
+  bool is_forward() const { return is_forward_; }
+
+  float plus_near() const { return plus_near_; }    ///< r + s at the near end, not cancelled
+  float minus_near() const { return minus_near_; }  ///< r - s at the near end, not cancelled
+
+  bool contains(float t) const { return t >= t_min_ && t <= t_max_; }
+  float offset(float t) const { return is_forward_ ? t - t_near_ : t_near_ - t; }
+  /// The t of an offset, within the stretch and finite.
+  float t(float offset) const {
+    const float t = is_forward_ ? t_near_ + offset : t_near_ - offset;
+    return std::min(std::clamp(t, t_min_, t_max_), std::numeric_limits<float>::max());
+  }
+  float s(float offset) const { return s_near_ + offset; }
+  float r(float s) const { return std::sqrt(h_ * h_ + s * s); }
+
+  /// A uniform number counted from the near end, and back.
+  float from_near(float u) const { return is_forward_ ? u : 1 - u; }
+
+  /// The offset of a point where r + s is (1 + x) times that of the near end: from
+  /// s = ((r + s) - h^2 / (r + s)) / 2, arranged as a sum of positive terms.
+  float offset_of_ratio(float x) const {
+    return 0.5f * x * (plus_near_ + minus_near_ / (1 + x));
+  }
+
+ private:
+  float t_min_, t_max_, t_near_, length_;
+  float h_, s_near_, r_near_, plus_near_, minus_near_;
+  bool is_forward_;
+};
+
+}  // namespace tyndall
