@@ -27,7 +27,7 @@ build: setup $(BUILD)/build.ninja
 demo: setup $(BUILD)/build.ninja
 	cmake --build $(BUILD) --target tyndall_cli
 	@mkdir -p $(OUT)
-	$(BUILD)/tyndall render scenes/blinds.pbrt -o $(OUT)/demo.exr -o $(OUT)/demo.png
+	$(BUILD)/tyndall render scenes/nave.pbrt -o $(OUT)/demo.exr -o $(OUT)/demo.png
 	@echo
 	@echo "The picture is $(OUT)/demo.png; $(OUT)/demo.exr holds it with all its layers."
 
