@@ -1,0 +1,259 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Renders the same scenes with Mitsuba 3 and with tyndall: agreement of means, and speed.
+
+Mitsuba's variant is scalar_rgb, its integrator volpath; depth, threads, samples and pictures are
+the same. Both render in turn, several rounds with different seeds. Path samples per second are
+medians over the rounds; the means of 8x8 tiles are compared by Welch's test at 1 % over all tiles.
+
+Mitsuba is installed by pip into --venv if it is not there. Exit status: 0 agreement, 1 not, 77
+skipped because Mitsuba cannot be installed.
+"""
+
+import argparse
+import json
+import os
+import pathlib
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+TILES = 8
+
+
+def ensure_mitsuba(venv):
+    """Starts this script again in a virtual environment with Mitsuba, installing it if need be."""
+    try:
+        import mitsuba  # noqa: F401
+        return
+    except ImportError:
+        pass
+    python = venv / "bin" / "python"
+    if os.environ.get("TYNDALL_COMPARE_CHILD"):
+        skip("Mitsuba does not load after its installation")
+    try:
+        if not python.exists():
+            subprocess.run([sys.executable, "-m", "venv", venv], check=True, capture_output=True)
+        subprocess.run([python, "-m", "pip", "install", "-q", "mitsuba", "numpy"], check=True,
+                       capture_output=True, text=True, timeout=600)
+    except (subprocess.SubprocessError, OSError) as error:
+        skip(f"Mitsuba cannot be installed: {getattr(error, 'stderr', '') or error}")
+    os.environ["TYNDALL_COMPARE_CHILD"] = "1"
+    os.execv(python, [str(python), *sys.argv])
+
+
+def skip(reason):
+    print(f"skipped: {reason}")
+    sys.exit(77)
+
+
+def density_grid(n):
+    """A smooth, lumpy ball in [0, 1], zero at the border, indices (z, y, x)."""
+    import numpy as np
+    c = (np.arange(n) + 0.5) / n * 2 - 1
+    z, y, x = np.meshgrid(c, c, c, indexing="ij")
+    lumps = 0.5 + 0.5 * np.sin(7 * x + 2 * np.sin(5 * y)) * np.sin(6 * z + 1) * np.cos(8 * y)
+    ball = np.clip(3 * (0.9 - np.sqrt(x * x + y * y + z * z)), 0, 1)
+    density = (ball * lumps).astype("float32")
+    for axis in range(3):  # what lies beyond the last samples differs between the renderers
+        density[(slice(None),) * axis + ([0, -1],)] = 0
+    return density
+
+
+class Comparison:
+    """One scene in both languages: a ball lamp over a floor, and a box of fog or smoke."""
+
+    def __init__(self, name, sigma_t, albedo, g, depth, size, grid=None):
+        self.name, self.sigma_t, self.albedo, self.g = name, sigma_t, albedo, g
+        self.depth, self.size, self.grid = depth, size, grid
+
+    def pbrt_medium(self):
+        sigma_s, sigma_a = self.sigma_t * self.albedo, self.sigma_t * (1 - self.albedo)
+        text = (f'"rgb sigma_s" [{sigma_s} {sigma_s} {sigma_s}] '
+                f'"rgb sigma_a" [{sigma_a} {sigma_a} {sigma_a}] "float g" {self.g}')
+        if self.grid is None:
+            return f'MakeNamedMedium "m" "string type" "homogeneous" {text}\n'
+        n = self.grid.shape[0]
+        values = " ".join(f"{v:.6g}" for v in self.grid.ravel())
+        return (f'MakeNamedMedium "m" "string type" "uniformgrid" {text} "point3 p0" [-1 -1 -1] '
+                f'"point3 p1" [1 1 1] "integer nx" {n} "integer ny" {n} "integer nz" {n} '
+                f'"float density" [{values}]\n')
+
+    def pbrt(self):
+        corners = " ".join(f"{x} {y} {z}" for z in (-1, 1) for y, x in
+                           ((-1, -1), (-1, 1), (1, 1), (1, -1)))
+        faces = "0 4 7 0 7 3 1 2 6 1 6 5 0 1 5 0 5 4 3 7 6 3 6 2 0 3 2 0 2 1 4 5 6 4 6 7"
+        return f'''Film "rgb" "integer xresolution" {self.size} "integer yresolution" {self.size}
+PixelFilter "box"
+Sampler "independent"
+Integrator "volpath" "integer maxdepth" {self.depth}
+LookAt 0.5 1.5 -5  0 -0.1 0  0 1 0
+Camera "perspective" "float fov" 35
+WorldBegin
+AttributeBegin
+  AreaLightSource "diffuse" "rgb L" [40 40 40]
+  Material "diffuse" "rgb reflectance" [0 0 0]
+  Translate 1.2 2.4 -0.6
+  Shape "sphere" "float radius" 0.25
+AttributeEnd
+Material "diffuse" "rgb reflectance" [0.5 0.5 0.5]
+Shape "bilinearmesh" "point3 P" [-4 -1.1 -4  4 -1.1 -4  -4 -1.1 4  4 -1.1 4]
+{self.pbrt_medium()}AttributeBegin
+  Material "interface"
+  MediumInterface "m" ""
+  Shape "trianglemesh" "point3 P" [{corners}] "integer indices" [{faces}]
+AttributeEnd
+'''
+
+    def mitsuba_medium(self, mi):
+        medium = {"type": "homogeneous", "albedo": self.albedo, "sigma_t": self.sigma_t,
+                  "phase": {"type": "hg", "g": self.g} if self.g else {"type": "isotropic"}}
+        if self.grid is not None:
+            to_world = mi.ScalarTransform4f().translate([-1, -1, -1]).scale(2)
+            medium.update(type="heterogeneous", scale=self.sigma_t, sigma_t={
+                "type": "gridvolume", "grid": mi.VolumeGrid(self.grid[..., None]),
+                "to_world": to_world, "filter_type": "trilinear"})
+        return medium
+
+    def mitsuba(self, mi):
+        transform = mi.ScalarTransform4f
+        return {
+            "type": "scene",
+            # Depth 1 is emission seen directly; pbrt counts scattering vertices.
+            "integrator": {"type": "volpath", "max_depth": self.depth + 1, "rr_depth": 1000},
+            "sensor": {
+                "type": "perspective", "fov": 35, "fov_axis": "smaller",
+                "to_world": transform().look_at([0.5, 1.5, -5], [0, -0.1, 0], [0, 1, 0]),
+                "film": {"type": "hdrfilm", "width": self.size, "height": self.size,
+                         "pixel_format": "rgb", "component_format": "float32",
+                         "rfilter": {"type": "box"}},
+                "sampler": {"type": "independent"}},
+            "lamp": {"type": "sphere", "center": [1.2, 2.4, -0.6], "radius": 0.25,
+                     "bsdf": {"type": "diffuse", "reflectance": 0.0},
+                     "emitter": {"type": "area", "radiance": 40.0}},
+            "floor": {"type": "rectangle", "bsdf": {"type": "diffuse", "reflectance": 0.5},
+                      "to_world": transform().translate([0, -1.1, 0]).rotate([1, 0, 0], -90)
+                                             .scale(4)},
+            "box": {"type": "cube", "bsdf": {"type": "null"},
+                    "interior": self.mitsuba_medium(mi)}}
+
+
+class Tyndall:
+    def __init__(self, program, comparison, folder, threads):
+        self.command = [program, "render", folder / f"{comparison.name}.pbrt", "--stats", "json",
+                        "--quiet", "-t", str(threads)]
+        self.output = folder / f"{comparison.name}.exr"
+        (folder / f"{comparison.name}.pbrt").write_text(comparison.pbrt())
+
+    def render(self, mi, np, spp, seed):
+        """The picture (height, width, 3) and the seconds that it took."""
+        text = subprocess.run([*self.command, "--spp", str(spp), "--seed", str(seed), "-o",
+                               self.output], check=True, capture_output=True, text=True).stdout
+        image = np.array(mi.Bitmap(str(self.output)).convert(mi.Bitmap.PixelFormat.RGB,
+                                                             mi.Struct.Type.Float32, False))
+        return image, json.loads(text)["seconds"]
+
+
+class Mitsuba:
+    def __init__(self, mi, comparison):
+        self.scene = mi.load_dict(comparison.mitsuba(mi))
+
+    def render(self, mi, np, spp, seed):
+        start = time.perf_counter()
+        image = np.array(mi.render(self.scene, spp=spp, seed=seed))
+        # Mitsuba's world is right-handed, pbrt's left-handed: the picture is mirrored.
+        return image[:, ::-1, :3], time.perf_counter() - start
+
+
+def tile_means(np, image):
+    step = image.shape[0] // TILES
+    gray = image[:TILES * step, :TILES * step].mean(axis=2)
+    return gray.reshape(TILES, step, TILES, step).mean(axis=(1, 3)).ravel()
+
+
+def normal_quantile(p):
+    return statistics.NormalDist().inv_cdf(p)
+
+
+def t_quantile(p, degrees):
+    """Student's t by the Cornish-Fisher expansion, good to a percent from 5 degrees on."""
+    z, v = normal_quantile(p), degrees
+    return (z + (z**3 + z) / (4 * v) + (5 * z**5 + 16 * z**3 + 3 * z) / (96 * v**2)
+            + (3 * z**7 + 19 * z**5 + 17 * z**3 - 15 * z) / (384 * v**3))
+
+
+def agreement(np, a, b):
+    """Largest Welch statistic over the tiles, its limit, and the relative difference of means."""
+    a, b = np.array(a), np.array(b)  # (rounds, tiles)
+    variance = a.var(axis=0, ddof=1) / len(a) + b.var(axis=0, ddof=1) / len(b)
+    t = np.abs(a.mean(axis=0) - b.mean(axis=0)) / np.sqrt(np.maximum(variance, 1e-30))
+    alpha = 1 - (1 - 0.01) ** (1 / a.shape[1])  # Sidak
+    limit = t_quantile(1 - alpha / 2, len(a) + len(b) - 2)
+    return float(t.max()), limit, float(a.mean() / b.mean() - 1)
+
+
+def compare(mi, np, comparison, arguments, folder):
+    ours = Tyndall(arguments.program, comparison, folder, arguments.threads)
+    theirs = Mitsuba(mi, comparison)
+    speeds, tiles = {"tyndall": [], "mitsuba": []}, {"tyndall": [], "mitsuba": []}
+    for seed in range(arguments.rounds):
+        for name, renderer in (("tyndall", ours), ("mitsuba", theirs)):
+            image, seconds = renderer.render(mi, np, arguments.spp, seed)
+            speeds[name].append(comparison.size**2 * arguments.spp / seconds)
+            tiles[name].append(tile_means(np, image))
+    t, limit, difference = agreement(np, tiles["tyndall"], tiles["mitsuba"])
+    median = {name: statistics.median(values) for name, values in speeds.items()}
+    ratios = [a / b for a, b in zip(speeds["tyndall"], speeds["mitsuba"])]
+    return {"scene": comparison.name, "tyndall_paths_per_second": median["tyndall"],
+            "mitsuba_paths_per_second": median["mitsuba"],
+            "speed_ratio": statistics.median(ratios), "speed_ratio_range": [min(ratios), max(ratios)],
+            "mean_difference": difference, "largest_t": t, "t_limit": limit, "agrees": t <= limit}
+
+
+def parse_arguments():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--program", type=pathlib.Path, default=ROOT / "build/release/tyndall")
+    parser.add_argument("--venv", type=pathlib.Path, default=ROOT / "build/mitsuba",
+                        help="where Mitsuba is, or is installed")
+    parser.add_argument("--threads", type=int, default=len(os.sched_getaffinity(0)))
+    parser.add_argument("--rounds", type=int, default=6)
+    parser.add_argument("--spp", type=int, default=64)
+    parser.add_argument("--size", type=int, default=128)
+    parser.add_argument("--depth", type=int, default=8)
+    parser.add_argument("--json", type=pathlib.Path, help="write the results here")
+    return parser.parse_args()
+
+
+def main():
+    arguments = parse_arguments()
+    ensure_mitsuba(arguments.venv)
+    import drjit
+    import mitsuba as mi
+    import numpy as np
+    mi.set_variant("scalar_rgb")
+    drjit.set_thread_count(arguments.threads)
+    comparisons = [
+        Comparison("fog", 1.5, 0.95, 0.0, arguments.depth, arguments.size),
+        Comparison("forward_fog", 3.0, 0.98, 0.7, arguments.depth, arguments.size),
+        Comparison("grid", 8.0, 0.95, 0.3, arguments.depth, arguments.size, density_grid(48))]
+    results = []
+    with tempfile.TemporaryDirectory() as folder:
+        for comparison in comparisons:
+            result = compare(mi, np, comparison, arguments, pathlib.Path(folder))
+            results.append(result)
+            print("{scene:12} tyndall {tyndall_paths_per_second:9.0f} paths/s, Mitsuba "
+                  "{mitsuba_paths_per_second:9.0f}, ratio {speed_ratio:5.2f} | mean differs by "
+                  "{mean_difference:+.2%}, largest t {largest_t:.2f} of {t_limit:.2f}".format(**result),
+                  "" if result["agrees"] else "DISAGREES", flush=True)
+    if arguments.json:
+        arguments.json.write_text(json.dumps(
+            {"mitsuba": mi.__version__, "threads": arguments.threads, "spp": arguments.spp,
+             "rounds": arguments.rounds, "results": results}, indent=2) + "\n")
+    return 0 if all(r["agrees"] for r in results) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
