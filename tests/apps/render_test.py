@@ -1,0 +1,409 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""End-to-end tests of `tyndall render`: outputs, arguments, exit codes, messages."""
+
+import json
+import os
+import signal
+import struct
+import subprocess
+import unittest
+
+import numpy as np
+
+from program import FOG, PROGRAM, ROOT, ProgramTest
+
+SEE = "See 'tyndall render --help'.\n"
+
+
+class OutputTest(ProgramTest):
+    def test_goes_where_the_scene_says(self):
+        self.render()
+        self.assertEqual(self.files(), ["fog.exr", "fog.pbrt"])
+
+    def test_several_outputs(self):
+        result = self.render("-o", "a.exr", "--outfile", "b.png", "--output=c.pfm")
+        self.assertEqual(self.files(), ["a.exr", "b.png", "c.pfm", "fog.pbrt"])
+        self.assertTrue(result.stderr.endswith("wrote a.exr\nwrote b.png\nwrote c.pfm\n"))
+        self.assertEqual((self.folder / "b.png").read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
+
+    def test_layers(self):
+        self.render("-o", "a.exr")
+        channels = self.exr("a.exr").channels()
+        self.assertEqual(sorted(channels), [
+            "B", "G", "R", "albedo.B", "albedo.G", "albedo.R", "depth.Z", "normal.X", "normal.Y",
+            "normal.Z", "spp.Y", "variance.B", "variance.G", "variance.R"])
+        self.assertEqual({c.shape for c in channels.values()}, {(8, 16)})
+        self.assertTrue((channels["spp.Y"] == 4).all())
+        self.assertTrue((channels["R"] >= 0).all() and channels["R"].max() > 0)
+
+    def test_half_and_float(self):
+        self.render("-o", "half.exr", "--half")
+        types = self.exr("half.exr").channel_types()
+        self.assertEqual((types["R"], types["depth.Z"], types["spp.Y"]), ("<f2", "<f4", "<f4"))
+        self.render("-o", "float.exr", "--half", "--float")
+        self.assertEqual(self.exr("float.exr").channel_types()["R"], "<f4")
+
+    def test_metadata(self):
+        self.render("-o", "a.exr", "--seed", "18446744073709551615", "--spp", "3")
+        file = self.exr("a.exr")
+        self.assertRegex(file["software"], r"^tyndall \d+\.\d+\.\d+$")
+        self.assertEqual(file["seed"], "18446744073709551615")
+        self.assertEqual(file["integrator"], "volpath")
+        self.assertEqual(file["samplesPerPixel"], 3)
+        self.assertEqual(file["rejectedSamples"], 0)
+        self.assertGreater(file["renderTimeSeconds"], 0)
+        self.assertTrue(file["commandLine"].endswith(
+            "render fog.pbrt -o a.exr --seed 18446744073709551615 --spp 3"))
+        # The camera stands at z = -5: the lamp at the origin is 5 in front of it.
+        at_lamp = file["worldToCamera"] @ [0, 0, 0, 1]
+        np.testing.assert_allclose(at_lamp, [0, 0, 5, 1], atol=1e-5)
+        ndc = file["worldToNDC"] @ [0, 0, 0, 1]
+        np.testing.assert_allclose(ndc[:2] / ndc[3], [0.5, 0.5], atol=1e-5)
+
+    def test_older_file_survives_an_error(self):
+        self.write("a.exr", "precious")
+        self.assertEqual(self.run_program("render", "nothing.pbrt", "-o", "a.exr").returncode, 2)
+        self.assertEqual((self.folder / "a.exr").read_text(), "precious")
+
+    def test_dry_run_writes_nothing(self):
+        result = self.render("--dry-run", "-o", "a.exr")
+        self.assertEqual(self.files(), ["fog.pbrt"])
+        self.assertEqual(result.stderr, "fog.pbrt: ready to render, 0 warnings\n")
+
+    def test_statistics(self):
+        result = self.render("--stats", "json", "-q", "--spp", "2")
+        statistics = json.loads(result.stdout)
+        self.assertEqual(statistics["samples_per_pixel"], 2)
+        self.assertEqual(statistics["resolution"], [16, 8])
+        self.assertEqual(statistics["paths"], 16 * 8 * 2)
+        self.assertEqual(statistics["rejected"], {"not_a_number": 0, "infinite": 0, "negative": 0})
+        self.assertEqual(statistics["outputs"], ["fog.exr"])
+        self.assertIs(statistics["stopped_early"], False)
+        self.assertEqual(result.stderr, "")
+
+    def test_quiet(self):
+        result = self.render("--quiet")
+        self.assertEqual((result.stdout, result.stderr), ("", ""))
+
+
+class PictureTest(ProgramTest):
+    def pixels(self, *arguments):
+        self.render("-o", "a.exr", *arguments)
+        channels = self.exr("a.exr").channels()
+        return np.stack([channels[c] for c in "RGB"], axis=-1)
+
+    def test_furnace_is_white(self):
+        self.run_program("render", str(ROOT / "scenes/furnace.pbrt"), "-o", "a.exr")
+        channels = self.exr("a.exr").channels()
+        error = np.sqrt(channels["variance.G"].sum()) / channels["G"].size
+        self.assertLess(abs(channels["G"].mean() - 1), 4 * error + 1e-5)
+
+    def test_same_picture_with_any_number_of_threads(self):
+        one = self.pixels("-t", "1", "--spp", "5")
+        for threads in ("2", "7"):
+            np.testing.assert_array_equal(self.pixels("-t", threads, "--spp", "5"), one)
+
+    def test_seed_changes_the_picture(self):
+        self.assertTrue((self.pixels("--seed", "1") != self.pixels("--seed", "2")).any())
+
+    def test_sampler_changes_the_picture(self):
+        self.assertTrue((self.pixels("--sampler", "sobol") !=
+                         self.pixels("--sampler", "independent")).any())
+
+    def test_crop_is_a_window_of_the_picture(self):
+        whole = self.pixels()
+        part = self.pixels("--crop", "4,2,12,6")
+        self.assertEqual(self.exr("a.exr")["dataWindow"], (4, 2, 11, 5))
+        self.assertEqual(self.exr("a.exr")["displayWindow"], (0, 0, 15, 7))
+        np.testing.assert_array_equal(part, whole[2:6, 4:12])
+        np.testing.assert_array_equal(self.pixels("--crop", "0.25,0.25,0.75,0.75"), part)
+
+    def test_size(self):
+        self.assertEqual(self.pixels("--size", "12x20").shape, (20, 12, 3))
+
+    def test_pixel_is_printed_and_leaves_files_alone(self):
+        whole = self.pixels()
+        self.assertEqual(self.files(), ["a.exr", "fog.pbrt"])
+        text = self.render("--pixel", "7,3").stdout
+        self.assertEqual(self.files(), ["a.exr", "fog.pbrt"])
+        words = text.split()
+        self.assertEqual(words[:2], ["pixel", "7,3:"])
+        np.testing.assert_allclose([float(w) for w in words[2:5]], whole[3, 7], rtol=1e-5)
+
+    def test_orders_add_up(self):
+        def mean(*arguments):
+            return self.pixels("--spp", "256", *arguments).mean()
+        one, two = mean("--orders", "1"), mean("--orders", "2")
+        self.assertAlmostEqual((one + two) / mean("--orders", "1-2"), 1, delta=1e-4)
+        self.assertGreater(one, two)
+        self.assertGreater(two, 0)
+
+    def test_exposure_brightens_png_only(self):
+        self.render("-o", "dark.png", "-o", "dark.exr", "--exposure", "-3")
+        self.render("-o", "bright.png", "-o", "bright.exr", "--exposure", "3")
+        self.assertNotEqual((self.folder / "dark.png").read_bytes(),
+                            (self.folder / "bright.png").read_bytes())
+        np.testing.assert_array_equal(self.exr("dark.exr").channels()["R"],
+                                      self.exr("bright.exr").channels()["R"])
+
+
+class EnvironmentTest(ProgramTest):
+    def test_twins(self):
+        result = self.render("--stats", "json", TYNDALL_SPP="3", TYNDALL_SIZE="4x2",
+                             TYNDALL_SEED="9", TYNDALL_QUIET="1", TYNDALL_OUTPUT="x.exr",
+                             TYNDALL_THREADS="1", TYNDALL_MAXDEPTH="2")
+        statistics = json.loads(result.stdout)
+        self.assertEqual((statistics["samples_per_pixel"], statistics["resolution"],
+                          statistics["seed"], statistics["threads"], statistics["max_depth"]),
+                         (3, [4, 2], 9, 1, 2))
+        self.assertEqual(self.files(), ["fog.pbrt", "x.exr"])
+        self.assertEqual(result.stderr, "")
+
+    def test_every_option_has_one(self):
+        """A value that no option can have is blamed on the variable."""
+        for option in ("SPP", "TIME", "INTEGRATOR", "MAXDEPTH", "ORDERS", "SAMPLER", "SEED",
+                       "SIZE", "CROP", "PIXEL", "EXPOSURE", "TONE", "THREADS", "PROGRESS", "STATS"):
+            result = self.run_program("render", "fog.pbrt", **{f"TYNDALL_{option}": "?!"})
+            self.assertEqual(result.returncode, 1, option)
+            self.assertTrue(result.stderr.startswith(f"error: TYNDALL_{option}: must "), result.stderr)
+
+    def test_command_line_wins(self):
+        result = self.render("--spp", "2", "--stats", "json", TYNDALL_SPP="3")
+        self.assertEqual(json.loads(result.stdout)["samples_per_pixel"], 2)
+
+
+class UsageTest(ProgramTest):
+    def check(self, arguments, message):
+        result = self.run_program("render", *arguments)
+        self.assertEqual((result.returncode, result.stderr), (1, message))
+        self.assertEqual(self.files(), ["fog.pbrt"])
+
+    def test_messages(self):
+        self.check([], "error: SCENE is required\n" + SEE)
+        self.check(["fog.pbrt", "--ssp", "4"],
+                   "error: unknown argument '--ssp'; did you mean --spp?\n" + SEE)
+        self.check(["fog.pbrt", "--spp", "0"], "error: --spp: must be at least 1, got '0'\n" + SEE)
+        self.check(["fog.pbrt", "--size", "0x0"],
+                   "error: --size: must be a width and a height of at least 1, such as 640x360, "
+                   "got '0x0'\n" + SEE)
+        self.check(["fog.pbrt", "--pixel", "16,0"],
+                   "error: --pixel: 16,0 lies outside the 16x8 picture\n")
+        self.check(["fog.pbrt", "--crop", "20,0,30,8"],
+                   "error: --crop: the window holds no pixel of the 16x8 picture\n")
+        self.check(["fog.pbrt", "--set", "x"],
+                   "error: --set: must be name=value, got 'x'\n" + SEE)
+
+    def test_unknown_option_of_the_integrator(self):
+        result = self.run_program("render", "fog.pbrt", "--set", "no.such=1")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("no.such", result.stderr)
+
+    def test_help_and_version(self):
+        result = self.run_program("render", "--help")
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        for word in ("--spp", "--outfile", "Exit status:", "Ctrl-C"):
+            self.assertIn(word, result.stdout)
+        self.assertLessEqual(max(map(len, result.stdout.splitlines())), 100)
+        result = self.run_program("--version")
+        self.assertRegex(result.stdout, r"^tyndall \d+\.\d+\.\d+\ncompiler   .*\nlibraries  Embree 3")
+
+
+class OutputErrorTest(ProgramTest):
+    """Found before rendering: with this many samples nothing else ends in time."""
+
+    def check(self, output, message):
+        result = self.run_program("render", "fog.pbrt", "--spp", "100000000", "-o", output)
+        self.assertEqual(result.returncode, 5, result.stderr)
+        self.assertIn(message, result.stderr)
+        self.assertEqual(result.stderr.count("\n"), 1)
+
+    def test_no_such_folder(self):
+        self.check("nowhere/a.exr", "nowhere")
+
+    def test_unknown_kind(self):
+        self.check("a.gif", ".gif")
+
+    def test_folder_in_the_way(self):
+        (self.folder / "a.exr").mkdir()
+        self.check("a.exr", "a.exr")
+
+    @unittest.skipIf(os.geteuid() == 0, "root may write anywhere")
+    def test_no_permission(self):
+        (self.folder / "closed").mkdir(mode=0o500)
+        self.check("closed/a.exr", "closed")
+
+    def test_one_bad_output_of_two(self):
+        result = self.run_program("render", "fog.pbrt", "--spp", "100000000", "-o", "a.exr", "-o",
+                                  "nowhere/b.exr")
+        self.assertEqual(result.returncode, 5)
+        self.assertEqual(self.files(), ["fog.pbrt"])
+
+    def test_default_output(self):
+        self.write("fog.pbrt", FOG.replace("fog.exr", "nowhere/fog.exr"))
+        result = self.run_program("render", "fog.pbrt", "--spp", "100000000")
+        self.assertEqual(result.returncode, 5)
+
+
+class SceneErrorTest(ProgramTest):
+    def check(self, text, *messages, code=2):
+        self.write("bad.pbrt", text)
+        result = self.run_program("render", "bad.pbrt", "-o", "a.exr")
+        self.assertEqual(result.returncode, code, result.stderr)
+        for message in messages:
+            self.assertIn(message, result.stderr)
+        self.assertEqual(self.files(), ["bad.pbrt", "fog.pbrt"])
+
+    def test_no_file(self):
+        result = self.run_program("render", "nothing.pbrt", "-o", "a.exr")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("nothing.pbrt", result.stderr)
+        self.assertIn("No such file or directory", result.stderr)
+
+    def test_a_folder(self):
+        result = self.run_program("render", ".", "-o", "a.exr")
+        self.assertEqual(result.returncode, 2)
+
+    def test_wrong_type(self):
+        self.check(FOG.replace('"float fov" 50', '"float fov" "wide"'), "bad.pbrt:8:", "error: ",
+                   "fov")
+
+    def test_out_of_range(self):
+        self.check(FOG.replace('[0 0 0]\nLook', '[0 0 0] "float g" 1.5\nLook'), "bad.pbrt:5:", "1.5")
+
+    def test_no_camera(self):
+        self.check(FOG.replace('Camera "perspective" "float fov" 50\n', ""), "amera")
+
+    def test_empty_film(self):
+        self.check(FOG.replace('"integer xresolution" 16', '"integer xresolution" 0'), "bad.pbrt:1:",
+                   "xresolution")
+
+    def test_huge_film(self):
+        huge = '"integer xresolution" 2000000 "integer yresolution" 2000000'
+        self.check(FOG.replace('"integer xresolution" 16 "integer yresolution" 8', huge),
+                   "2000000x2000000", code=3)
+
+    def test_no_light_is_a_black_picture(self):
+        self.write("dark.pbrt", FOG.replace('LightSource "point" "rgb I" [8 8 8]\n', ""))
+        result = self.run_program("render", "dark.pbrt", "-o", "a.exr")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("light", result.stderr)
+        self.assertEqual(self.exr("a.exr").channels()["R"].max(), 0)
+
+    def test_unsupported_is_a_warning_or_under_strict_an_error(self):
+        self.write("odd.pbrt", FOG.replace("WorldBegin", 'Accelerator "kdtree"\nWorldBegin')
+                   .replace('"point" "rgb I" [8 8 8]', '"goniometric" "rgb I" [8 8 8]'))
+        result = self.run_program("render", "odd.pbrt", "-o", "a.exr")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(result.stderr.count("odd.pbrt:11:"), 1)
+        self.assertIn("warning: ", result.stderr)
+        self.assertEqual(self.run_program("render", "odd.pbrt", "-q", "-o", "a.exr").stderr, "")
+        result = self.run_program("render", "odd.pbrt", "--strict", "-o", "a.exr")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("odd.pbrt:11:", result.stderr)
+        self.assertIn("error: ", result.stderr)
+
+
+class StoppingTest(ProgramTest):
+    def start_and_wait(self, *arguments):
+        """Starts a render without end, returns it as soon as it has shown progress twice."""
+        process = self.start_program("render", "fog.pbrt", "-o", "a.exr", "--spp", "100000000",
+                                     "--size", "64x64", "--time", "100s", "--progress", "farm",
+                                     *arguments)
+        self.addCleanup(process.stderr.close)
+        self.addCleanup(process.stdout.close)
+        self.addCleanup(process.kill)
+        for _ in range(2):
+            self.assertIn("ALF_PROGRESS", process.stderr.readline())
+        return process
+
+    def check_partial_picture(self):
+        channels = self.exr("a.exr").channels()
+        count = channels["spp.Y"]
+        self.assertGreater(count.min(), 0)
+        self.assertEqual(count.min(), count.max())
+        self.assertGreater(channels["R"].mean(), 0)
+        self.assertEqual(self.exr("a.exr")["samplesPerPixel"], count[0, 0])
+
+    def check_first_signal(self, number):
+        process = self.start_and_wait()
+        process.send_signal(number)
+        rest = process.stderr.read()
+        self.assertEqual(process.wait(60), 4, rest)
+        self.assertIn("\nstopping after the pass in hand; a second signal ends at once\n", rest)
+        self.assertIn("stopped early: ", rest)
+        self.assertTrue(rest.endswith("wrote a.exr\n"))
+        self.check_partial_picture()
+
+    def test_interrupt_writes_a_valid_picture(self):
+        self.check_first_signal(signal.SIGINT)
+
+    def test_termination_writes_a_valid_picture(self):
+        self.check_first_signal(signal.SIGTERM)
+
+    def test_second_signal_kills(self):
+        process = self.start_and_wait("--size", "3000x3000")
+        process.send_signal(signal.SIGINT)
+        while "stopping after" not in process.stderr.readline():
+            pass
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(60), -signal.SIGINT)
+        self.assertEqual(self.files(), ["fog.pbrt"])
+
+    def test_time_limit(self):
+        result = self.run_program("render", "fog.pbrt", "-o", "a.exr", "--spp", "100000000",
+                                  "--time", "0.5s", "--stats", "json")
+        self.assertEqual(result.returncode, 4, result.stderr)
+        self.check_partial_picture()
+        statistics = json.loads(result.stdout)
+        self.assertIs(statistics["stopped_early"], True)
+        self.assertLess(statistics["seconds"], 5)
+        self.assertEqual(statistics["samples_per_pixel_wanted"], 100000000)
+
+    def test_time_limit_that_is_not_reached(self):
+        self.render("--time", "1h")
+
+
+class ProgressTest(ProgramTest):
+    def test_lines_where_there_is_no_terminal(self):
+        result = self.render("--spp", "400")
+        lines = [line for line in result.stderr.splitlines() if line.startswith("rendering: ")]
+        self.assertGreater(len(lines), 0)
+        self.assertLessEqual(len(lines), 21)
+        self.assertRegex(lines[-1], r"^rendering: \d+ %, \d+ spp, .* s")
+        self.assertNotIn("\r", result.stderr)
+
+    def bar(self, **variables):
+        """What appears on a terminal of 80 columns."""
+        master, slave = os.openpty()
+        import fcntl
+        import termios
+        fcntl.ioctl(slave, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 80, 0, 0))
+        from program import environment
+        process = subprocess.Popen([PROGRAM, "render", "fog.pbrt", "--spp", "2000"],
+                                   cwd=self.folder, stderr=slave, env=environment(**variables))
+        os.close(slave)
+        text = b""
+        try:
+            while chunk := os.read(master, 65536):
+                text += chunk
+        except OSError:  # Linux reports the other side's end so
+            pass
+        os.close(master)
+        self.assertEqual(process.wait(60), 0)
+        return text.decode()
+
+    def test_bar_on_a_terminal(self):
+        text = self.bar()
+        self.assertIn("\rrendering [", text)
+        self.assertIn("ETA ", text)
+        self.assertIn("\033[36m#", text)
+
+    def test_no_color(self):
+        text = self.bar(NO_COLOR="1")
+        self.assertIn("\rrendering [#", text)
+        self.assertNotIn("\033[36m", text)
+
+
+if __name__ == "__main__":
+    unittest.main()
