@@ -43,15 +43,16 @@ class Intersector {
     Transform world_from_group;
   };
 
-  /// Group 0 is the world itself; the others appear only through `instances`.
-  /// Throws std::runtime_error if memory runs out.
+  /// Group 0 is the world itself; the others appear only through `instances`, whose transforms
+  /// are affine. Throws std::runtime_error if memory runs out.
   Intersector(std::span<const Group> groups, std::span<const Instance> instances);
   ~Intersector();
   Intersector(const Intersector&) = delete;
   Intersector& operator=(const Intersector&) = delete;
 
   /// The closest hit at a distance in (0, t_max). Use offset_origin() for rays that leave a
-  /// surface.
+  /// surface: triangles that the origin is not exactly in front of are never hit, so that no
+  /// distance needs to be skipped. Rays that are not finite hit nothing.
   std::optional<SceneHit> intersect(const Ray& ray, float t_max, RayMask mask) const;
   /// Whether intersect() would find anything.
   bool is_occluded(const Ray& ray, float t_max, RayMask mask) const;
@@ -63,8 +64,9 @@ class Intersector {
   std::unique_ptr<Impl> impl_;
 };
 
-/// The point `p` of a surface moved off it to the side that `d` leaves to, by a few rounding
-/// errors, so that a ray from there does not hit the same surface again [WB19].
+/// The point `p` of a surface moved off it to the side that `d` leaves to, by a few units in the
+/// last place of each coordinate, so that a ray from there does not hit the same surface again.
+/// [WB19] moves points a hundred times farther: here intersections decide in double precision.
 Vec3 offset_origin(Vec3 p, Vec3 ng, Vec3 d);
 
 }  // namespace tyndall

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "tyndall/math/bounds.h"
+#include "tyndall/math/transform.h"
+#include "tyndall/math/vec.h"
+
+namespace tyndall {
+
+/// A point, direction or normal in double precision: what lies between the float vertices of a
+/// shape and the float point of a hit, so that the latter is off the shape by one rounding only.
+struct Vec3d {
+  double x = 0, y = 0, z = 0;
+
+  constexpr Vec3d() = default;
+  constexpr Vec3d(double x_, double y_, double z_) : x(x_), y(y_), z(z_) {}
+  constexpr explicit Vec3d(Vec3 v)
+      : x(static_cast<double>(v.x)), y(static_cast<double>(v.y)), z(static_cast<double>(v.z)) {}
+
+  constexpr Vec3d operator-() const { return {-x, -y, -z}; }
+};
+
+constexpr Vec3d operator+(Vec3d a, Vec3d b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+constexpr Vec3d operator-(Vec3d a, Vec3d b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+constexpr Vec3d operator*(Vec3d a, double s) { return {a.x * s, a.y * s, a.z * s}; }
+constexpr Vec3d operator*(double s, Vec3d a) { return a * s; }
+
+constexpr double dot(Vec3d a, Vec3d b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+constexpr Vec3d cross(Vec3d a, Vec3d b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+inline double length(Vec3d a) { return std::sqrt(dot(a, a)); }
+
+/// Rounds each component to the nearest float.
+constexpr Vec3 to_float(Vec3d a) {
+  return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)};
+}
+
+/// The smallest box of floats that holds the box from `min` to `max`.
+inline Bounds3 enclosing(Vec3d min, Vec3d max) {
+  const auto below = [](double x) {
+    const auto f = static_cast<float>(x);
+    return static_cast<double>(f) > x ? std::nextafter(f, -infinity) : f;
+  };
+  return {.min = {below(min.x), below(min.y), below(min.z)},
+          .max = {-below(-max.x), -below(-max.y), -below(-max.z)}};
+}
+
+/// The unit vector along `a`, or along z if `a` has no direction (zero or not finite).
+inline Vec3d normalize_or_z(Vec3d a) {
+  const double l = length(a);
+  return l > 0 && std::isfinite(l) ? a * (1 / l) : Vec3d{0, 0, 1};
+}
+
+/// Two unit vectors that make a right-handed frame with the unit vector `z` [Duff17].
+inline std::pair<Vec3d, Vec3d> perpendicular(Vec3d z) {
+  const double sign = std::copysign(1.0, z.z);
+  const double a = -1 / (sign + z.z);
+  const double b = z.x * z.y * a;
+  return {{1 + sign * z.x * z.x * a, sign * b, -sign * z.x}, {b, sign + z.y * z.y * a, -z.y}};
+}
+
+/// An affine map: the upper three rows of a Transform, in double precision.
+class Affine {
+ public:
+  /// Precondition: the transform is affine; its last row is ignored.
+  explicit Affine(const Transform& t) {
+    for (size_t i = 0; i < 3; ++i)
+      for (size_t j = 0; j < 4; ++j) m_[i][j] = static_cast<double>(t.matrix()[i][j]);
+  }
+
+  /// The image of the j-th axis, or of the origin for j = 3.
+  Vec3d column(size_t j) const { return {m_[0][j], m_[1][j], m_[2][j]}; }
+  Vec3d point(Vec3d p) const { return vector(p) + column(3); }
+  Vec3d vector(Vec3d v) const { return column(0) * v.x + column(1) * v.y + column(2) * v.z; }
+  /// The transpose of the linear part applied to v.
+  Vec3d transposed(Vec3d v) const {
+    return {dot(column(0), v), dot(column(1), v), dot(column(2), v)};
+  }
+
+  double determinant() const { return dot(cross(column(0), column(1)), column(2)); }
+
+  /// The normal of the image of a surface with unit normal `n`. Its length is the factor by
+  /// which the surface's area grows.
+  Vec3d normal(Vec3d n) const {
+    // The cofactor matrix is the inverse transpose times the determinant.
+    const Vec3d image = cross(column(1), column(2)) * n.x + cross(column(2), column(0)) * n.y +
+                        cross(column(0), column(1)) * n.z;
+    return determinant() < 0 ? -image : image;
+  }
+
+  /// Of the double-precision matrix, and so more exactly inverse to it than
+  /// Transform::inverse_matrix(). Not finite if the matrix is singular.
+  Affine inverse() const {
+    const double inv = 1 / determinant();
+    const Vec3d rows[3] = {cross(column(1), column(2)) * inv, cross(column(2), column(0)) * inv,
+                           cross(column(0), column(1)) * inv};
+    Affine result = *this;
+    for (size_t i = 0; i < 3; ++i)
+      result.m_[i] = {rows[i].x, rows[i].y, rows[i].z, -dot(rows[i], column(3))};
+    return result;
+  }
+
+ private:
+  std::array<std::array<double, 4>, 3> m_;
+};
+
+}  // namespace tyndall
