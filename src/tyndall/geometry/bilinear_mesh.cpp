@@ -16,18 +16,21 @@ T bilinear(const T& a00, const T& a10, const T& a01, const T& a11, Scalar u, Sca
   return (a00 * (1 - u) + a10 * u) * (1 - v) + (a01 * (1 - u) + a11 * u) * v;
 }
 
-// Uniform by area on a patch, by rejection: the length of the normal is convex in (u, v), so no
-// larger than at the corners. The further numbers that a rejection needs are a hash of `u`; the
-// first try is `u` itself, which keeps the strata of a sampler on a patch that is nearly flat.
+// Uniform by area on a patch, by rejection: the length of the normal is convex in (u, v),
+// so no larger than at the corners. The further numbers that a rejection needs are a hash
+// of `u`; the first try is `u` itself, which keeps the strata of a sampler on a patch that
+// is nearly flat.
 Vec2 sample_uniform(const BilinearPatch& patch, Vec2 u) {
   if (patch.is_parallelogram()) return u;
   double largest = 0;
   for (const double x : {0.0, 1.0})
-    for (const double y : {0.0, 1.0}) largest = std::max(largest, length(patch.normal(x, y)));
+    for (const double y : {0.0, 1.0})
+      largest = std::max(largest, length(patch.normal(x, y)));
   RandomStream random(hash(std::bit_cast<uint32_t>(u.x), std::bit_cast<uint32_t>(u.y)));
   constexpr int tries = 1000;  // one in two or three succeeds
   for (int i = 0; i < tries; ++i) {
-    const double size = length(patch.normal(static_cast<double>(u.x), static_cast<double>(u.y)));
+    const double size =
+        length(patch.normal(static_cast<double>(u.x), static_cast<double>(u.y)));
     if (static_cast<double>(random.next_1d()) * largest < size) break;
     u = random.next_2d();
   }
@@ -48,12 +51,14 @@ Vec3d BilinearPatch::normal(double u, double v) const {
 
 bool BilinearPatch::is_parallelogram() const {
   const Vec3d twist = p00 - p10 - p01 + p11;
-  return dot(twist, twist) <= 1e-12 * std::max(dot(p11 - p00, p11 - p00), dot(p10 - p01, p10 - p01));
+  return dot(twist, twist) <=
+         1e-12 * std::max(dot(p11 - p00, p11 - p00), dot(p10 - p01, p10 - p01));
 }
 
 double BilinearPatch::area() const {
   if (is_parallelogram()) return length(normal(0.5, 0.5));
-  // Gauss-Legendre with three nodes on each of a few cells: exact unless the normal turns sharply.
+  // Gauss-Legendre with three nodes on each of a few cells: exact unless the normal turns
+  // sharply.
   constexpr int cells = 8;
   constexpr double offset = 0.38729833462074168852;  // sqrt(3/5) / 2
   constexpr double nodes[3] = {0.5 - offset, 0.5, 0.5 + offset};
@@ -67,8 +72,10 @@ double BilinearPatch::area() const {
   return sum / (cells * cells);
 }
 
-BilinearMesh::BilinearMesh(std::vector<Vec3> positions, std::vector<std::array<int, 4>> patches,
-                           std::vector<Vec3> normals, std::vector<Vec2> uvs, bool flip_normals)
+BilinearMesh::BilinearMesh(std::vector<Vec3> positions,
+                           std::vector<std::array<int, 4>> patches,
+                           std::vector<Vec3> normals, std::vector<Vec2> uvs,
+                           bool flip_normals)
     : positions_(std::move(positions)),
       patches_(std::move(patches)),
       normals_(std::move(normals)),
@@ -89,7 +96,9 @@ SurfacePoint BilinearMesh::point(uint32_t primitive, Vec2 uv) const {
   const BilinearPatch corners = patch(primitive);
   const auto u = static_cast<double>(uv.x), v = static_cast<double>(uv.y);
   const auto interpolate = [&](const auto& values) {
-    const auto at = [&](size_t i) { return values[static_cast<size_t>(patches_[primitive][i])]; };
+    const auto at = [&](size_t i) {
+      return values[static_cast<size_t>(patches_[primitive][i])];
+    };
     return bilinear(at(0), at(1), at(2), at(3), uv.x, uv.y);
   };
   Vec3 ng = to_float(normalize_or_z(corners.normal(u, v)));

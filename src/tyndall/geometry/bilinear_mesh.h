@@ -18,8 +18,8 @@ struct BilinearPatch {
   Vec3d p00, p10, p01, p11;
 
   Vec3d position(double u, double v) const;
-  /// The cross product of the derivatives by u and v: the normal, as long as the area per unit
-  /// of (u, v).
+  /// The cross product of the derivatives by u and v: the normal, as long as the area per
+  /// unit of (u, v).
   Vec3d normal(double u, double v) const;
   bool is_parallelogram() const;
   double area() const;

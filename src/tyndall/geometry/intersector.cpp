@@ -34,8 +34,8 @@ void throw_on_error(RTCDevice device) {
     case RTC_ERROR_OUT_OF_MEMORY:
       throw std::runtime_error("out of memory while building the ray tracing structures");
     default:
-      throw std::runtime_error(
-          fmt::format("Embree failed with error {} while building", static_cast<int>(error)));
+      throw std::runtime_error(fmt::format("Embree failed with error {} while building",
+                                           static_cast<int>(error)));
   }
 }
 
@@ -49,8 +49,8 @@ struct Geometry {
   const Shape* shape;
   const TriangleMesh* mesh;  // null if another shape
   std::variant<std::monostate, SphereIntersector, DiskIntersector> quadric;
-  // Embree's float arithmetic tells the right side of a triangle's plane if the origin's distance
-  // to it times twice the triangle's area is above this.
+  // Embree's float arithmetic tells the right side of a triangle's plane if the origin's
+  // distance to it times twice the triangle's area is above this.
   float safe_volume = 0;
 };
 
@@ -103,10 +103,12 @@ std::optional<PreciseHit> intersect_curved(const Geometry& geometry, uint32_t pr
     return sphere->intersect(ray, t_max);
   if (const auto* disk = std::get_if<DiskIntersector>(&geometry.quadric))
     return disk->intersect(ray, t_max);
-  return intersect_patch(std::get<BilinearMesh>(*geometry.shape).patch(primitive), ray, t_max);
+  return intersect_patch(std::get<BilinearMesh>(*geometry.shape).patch(primitive), ray,
+                         t_max);
 }
 
-// Drops hits of a triangle by a ray that starts on it or behind it, which float cannot tell.
+// Drops hits of a triangle by a ray that starts on it or behind it, which float cannot
+// tell.
 void drop_hit_behind(const RTCFilterFunctionNArguments* args) {
   assert(args->N == 1);
   const auto& geometry = *static_cast<const Geometry*>(args->geometryUserPtr);
@@ -166,16 +168,19 @@ void occlude_user_geometry(const RTCOccludedFunctionNArguments* args) {
     ray.tfar = -infinity;
 }
 
-Handle<RTCGeometry> new_triangles(RTCDevice device, const TriangleMesh& mesh, bool is_instanced) {
+Handle<RTCGeometry> new_triangles(RTCDevice device, const TriangleMesh& mesh,
+                                  bool is_instanced) {
   Handle<RTCGeometry> geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
-  void* vertices = rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0,
-                                           RTC_FORMAT_FLOAT3, sizeof(Vec3), mesh.positions().size());
+  void* vertices =
+      rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                              sizeof(Vec3), mesh.positions().size());
   throw_on_error(device);
   std::copy(mesh.positions().begin(), mesh.positions().end(), static_cast<Vec3*>(vertices));
   rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                             mesh.triangles().data(), 0, sizeof(Vec3i), mesh.triangles().size());
-  // In the world intersect() checks the closest hit itself, which costs less than a callback for
-  // each; an occlusion test does not tell what it hit.
+                             mesh.triangles().data(), 0, sizeof(Vec3i),
+                             mesh.triangles().size());
+  // In the world intersect() checks the closest hit itself, which costs less than a
+  // callback for each; an occlusion test does not tell what it hit.
   rtcSetGeometryOccludedFilterFunction(geometry.get(), drop_hit_behind);
   if (is_instanced) rtcSetGeometryIntersectFilterFunction(geometry.get(), drop_hit_behind);
   return geometry;
@@ -197,7 +202,8 @@ size_t primitive_count(const Shape& shape) {
 }
 
 Geometry make_geometry(const Shape& shape) {
-  Geometry geometry{.shape = &shape, .mesh = std::get_if<TriangleMesh>(&shape), .quadric = {}};
+  Geometry geometry{
+      .shape = &shape, .mesh = std::get_if<TriangleMesh>(&shape), .quadric = {}};
   if (geometry.mesh) geometry.safe_volume = safe_volume(*geometry.mesh);
   if (const auto* sphere = std::get_if<Sphere>(&shape))
     geometry.quadric.emplace<SphereIntersector>(*sphere);
@@ -217,14 +223,28 @@ Vec2 clamp_to_triangle(Vec2 b) {
   return sum > 1 ? b * (1 / sum) : b;
 }
 
+// Embree takes coordinates up to 1.8e18.
 bool can_hit(const Ray& ray, float t_max) {
-  return is_finite(ray.o) && is_finite(ray.d) && length_squared(ray.d) > 0 && t_max > 0;
+  constexpr float limit = 1e18f;
+  const auto is_inside = [](Vec3 a) {
+    return magnitude(a.x) < limit && magnitude(a.y) < limit && magnitude(a.z) < limit;
+  };
+  return is_inside(ray.o) && is_inside(ray.d) && length_squared(ray.d) > 0 && t_max > 0;
 }
 
 RTCRay to_embree(const Ray& ray, float t_max, RayMask mask) {
-  return {.org_x = ray.o.x, .org_y = ray.o.y, .org_z = ray.o.z, .tnear = 0,
-          .dir_x = ray.d.x, .dir_y = ray.d.y, .dir_z = ray.d.z, .time = 0,
-          .tfar = t_max, .mask = static_cast<uint32_t>(mask), .id = 0, .flags = 0};
+  return {.org_x = ray.o.x,
+          .org_y = ray.o.y,
+          .org_z = ray.o.z,
+          .tnear = 0,
+          .dir_x = ray.d.x,
+          .dir_y = ray.d.y,
+          .dir_z = ray.d.z,
+          .time = 0,
+          .tfar = t_max,
+          .mask = static_cast<uint32_t>(mask),
+          .id = 0,
+          .flags = 0};
 }
 
 RTCHit no_hit() {
@@ -246,7 +266,8 @@ class Intersector::Impl {
     geometries_.resize(groups.size());
     for (size_t i = 0; i < groups.size(); ++i)
       scenes_.push_back(new_scene(groups[i], geometries_[i], i > 0));
-    if (scenes_.empty()) scenes_.push_back(new_scene({}, geometries_.emplace_back(), false));
+    if (scenes_.empty())
+      scenes_.push_back(new_scene({}, geometries_.emplace_back(), false));
     // The world last: its instances need their groups to be complete.
     for (size_t i = 1; i < scenes_.size(); ++i) rtcCommitScene(scenes_[i].get());
     add_instances(groups, instances);
@@ -261,7 +282,8 @@ class Intersector::Impl {
     for (;;) {
       rtcIntersect1(scenes_[0].get(), &context.embree, &query);
       if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-      if (const std::optional<SceneHit> hit = reconstruct(context, query, t_max)) return hit;
+      if (const std::optional<SceneHit> hit = reconstruct(context, query, t_max))
+        return hit;
       // It was the triangle that the ray starts from: go on behind it.
       query.ray.tnear = std::nextafter(query.ray.tfar, infinity);
       query.ray.tfar = t_max;
@@ -358,7 +380,8 @@ class Intersector::Impl {
       result.point = geometry.mesh->point(hit.primID, barycentric);
     } else {
       // Embree has room for floats only; the same arithmetic finds the same point again.
-      const std::optional<PreciseHit> found = intersect_curved(geometry, hit.primID, local, infinity);
+      const std::optional<PreciseHit> found =
+          intersect_curved(geometry, hit.primID, local, infinity);
       if (!found) return std::nullopt;
       p = found->p;
       result.point = surface_point(*geometry.shape, hit.primID, {hit.u, hit.v});
@@ -368,6 +391,7 @@ class Intersector::Impl {
       p = world.point(p);
       result.point.ng = to_float(normalize_or_z(world.normal(Vec3d(result.point.ng))));
       result.point.ns = to_float(normalize_or_z(world.normal(Vec3d(result.point.ns))));
+      if (dot(result.point.ns, result.point.ng) < 0) result.point.ns = -result.point.ns;
     }
     result.point.p = to_float(p);
     return result;
@@ -380,7 +404,8 @@ class Intersector::Impl {
   uint32_t first_instance_ = 0;
 };
 
-Intersector::Intersector(std::span<const Group> groups, std::span<const Instance> instances) try
+Intersector::Intersector(std::span<const Group> groups,
+                         std::span<const Instance> instances) try
     : impl_(std::make_unique<Impl>(groups, instances)) {
 } catch (const std::bad_alloc&) {
   throw std::runtime_error("out of memory while building the ray tracing structures");
@@ -388,7 +413,8 @@ Intersector::Intersector(std::span<const Group> groups, std::span<const Instance
 
 Intersector::~Intersector() = default;
 
-std::optional<SceneHit> Intersector::intersect(const Ray& ray, float t_max, RayMask mask) const {
+std::optional<SceneHit> Intersector::intersect(const Ray& ray, float t_max,
+                                               RayMask mask) const {
   return impl_->intersect(ray, t_max, mask);
 }
 

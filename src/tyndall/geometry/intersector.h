@@ -22,14 +22,14 @@ enum class RayMask : uint32_t {
 
 /// A hit, in world space.
 struct SceneHit {
-  float t;          ///< distance along the ray [scene units]
-  uint32_t group;   ///< group and shape index as given to the constructor
+  float t;         ///< distance along the ray [scene units]
+  uint32_t group;  ///< group and shape index as given to the constructor
   uint32_t shape;
   SurfacePoint point;
 };
 
-/// Finds the first of many shapes that a ray meets. Embree behind it; immutable and safe to use
-/// from all threads once built.
+/// Finds the first of many shapes that a ray meets. Embree behind it; immutable and safe to
+/// use from all threads once built.
 class Intersector {
  public:
   /// A shape and whether it is only the boundary between media.
@@ -43,16 +43,17 @@ class Intersector {
     Transform world_from_group;
   };
 
-  /// Group 0 is the world itself; the others appear only through `instances`, whose transforms
-  /// are affine. Throws std::runtime_error if memory runs out.
+  /// Group 0 is the world itself; the others appear only through `instances`, whose
+  /// transforms are affine. Throws std::runtime_error if memory runs out.
   Intersector(std::span<const Group> groups, std::span<const Instance> instances);
   ~Intersector();
   Intersector(const Intersector&) = delete;
   Intersector& operator=(const Intersector&) = delete;
 
   /// The closest hit at a distance in (0, t_max). Use offset_origin() for rays that leave a
-  /// surface: triangles that the origin is not exactly in front of are never hit, so that no
-  /// distance needs to be skipped. Rays that are not finite hit nothing.
+  /// surface: triangles that the origin is not exactly in front of are never hit, so that
+  /// no distance needs to be skipped. Rays from farther than 1e18, or not finite, hit
+  /// nothing.
   std::optional<SceneHit> intersect(const Ray& ray, float t_max, RayMask mask) const;
   /// Whether intersect() would find anything.
   bool is_occluded(const Ray& ray, float t_max, RayMask mask) const;
@@ -64,9 +65,10 @@ class Intersector {
   std::unique_ptr<Impl> impl_;
 };
 
-/// The point `p` of a surface moved off it to the side that `d` leaves to, by a few units in the
-/// last place of each coordinate, so that a ray from there does not hit the same surface again.
-/// [WB19] moves points a hundred times farther: here intersections decide in double precision.
+/// The point `p` of a surface moved off it to the side that `d` leaves to, by a few units
+/// in the last place of each coordinate, so that a ray from there does not hit the same
+/// surface again. [WB19] moves points a hundred times farther: here intersections decide in
+/// double precision.
 Vec3 offset_origin(Vec3 p, Vec3 ng, Vec3 d);
 
 }  // namespace tyndall

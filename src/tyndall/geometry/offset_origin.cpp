@@ -11,7 +11,9 @@ namespace {
 // The float that is `steps` floats above x; negative steps go down.
 float float_neighbor(float x, int32_t steps) {
   // Sign and magnitude become a number that is in the order of the floats, and back.
-  const auto flip = [](int32_t i) { return i < 0 ? std::numeric_limits<int32_t>::min() - i : i; };
+  const auto flip = [](int32_t i) {
+    return i < 0 ? std::numeric_limits<int32_t>::min() - i : i;
+  };
   return std::bit_cast<float>(flip(flip(std::bit_cast<int32_t>(x)) + steps));
 }
 
@@ -19,8 +21,8 @@ float float_neighbor(float x, int32_t steps) {
 
 Vec3 offset_origin(Vec3 p, Vec3 ng, Vec3 d) {
   // Rounding has moved p along the true normal n by at most the sum over its coordinates of
-  // |n_i| half a unit in the last place; each step below moves it by the sum of |n_i| times a
-  // whole one. The spare steps cover what callers compute with p in float.
+  // |n_i| half a unit in the last place; each step below moves it by the sum of |n_i| times
+  // a whole one. The spare steps cover what callers compute with p in float.
   constexpr int32_t steps = 4;
   const Vec3 side = dot(ng, d) < 0 ? -ng : ng;
   Vec3 moved = p;

@@ -11,15 +11,18 @@
 
 namespace tyndall {
 
-/// A point, direction or normal in double precision: what lies between the float vertices of a
-/// shape and the float point of a hit, so that the latter is off the shape by one rounding only.
+/// A point, direction or normal in double precision: what lies between the float vertices
+/// of a shape and the float point of a hit, so that the latter is off the shape by one
+/// rounding only.
 struct Vec3d {
   double x = 0, y = 0, z = 0;
 
   constexpr Vec3d() = default;
   constexpr Vec3d(double x_, double y_, double z_) : x(x_), y(y_), z(z_) {}
   constexpr explicit Vec3d(Vec3 v)
-      : x(static_cast<double>(v.x)), y(static_cast<double>(v.y)), z(static_cast<double>(v.z)) {}
+      : x(static_cast<double>(v.x)),
+        y(static_cast<double>(v.y)),
+        z(static_cast<double>(v.z)) {}
 
   constexpr Vec3d operator-() const { return {-x, -y, -z}; }
 };
@@ -61,7 +64,8 @@ inline std::pair<Vec3d, Vec3d> perpendicular(Vec3d z) {
   const double sign = std::copysign(1.0, z.z);
   const double a = -1 / (sign + z.z);
   const double b = z.x * z.y * a;
-  return {{1 + sign * z.x * z.x * a, sign * b, -sign * z.x}, {b, sign + z.y * z.y * a, -z.y}};
+  return {{1 + sign * z.x * z.x * a, sign * b, -sign * z.x},
+          {b, sign + z.y * z.y * a, -z.y}};
 }
 
 /// An affine map: the upper three rows of a Transform, in double precision.
@@ -76,7 +80,9 @@ class Affine {
   /// The image of the j-th axis, or of the origin for j = 3.
   Vec3d column(size_t j) const { return {m_[0][j], m_[1][j], m_[2][j]}; }
   Vec3d point(Vec3d p) const { return vector(p) + column(3); }
-  Vec3d vector(Vec3d v) const { return column(0) * v.x + column(1) * v.y + column(2) * v.z; }
+  Vec3d vector(Vec3d v) const {
+    return column(0) * v.x + column(1) * v.y + column(2) * v.z;
+  }
   /// The transpose of the linear part applied to v.
   Vec3d transposed(Vec3d v) const {
     return {dot(column(0), v), dot(column(1), v), dot(column(2), v)};
@@ -88,7 +94,8 @@ class Affine {
   /// which the surface's area grows.
   Vec3d normal(Vec3d n) const {
     // The cofactor matrix is the inverse transpose times the determinant.
-    const Vec3d image = cross(column(1), column(2)) * n.x + cross(column(2), column(0)) * n.y +
+    const Vec3d image = cross(column(1), column(2)) * n.x +
+                        cross(column(2), column(0)) * n.y +
                         cross(column(0), column(1)) * n.z;
     return determinant() < 0 ? -image : image;
   }
@@ -97,7 +104,8 @@ class Affine {
   /// Transform::inverse_matrix(). Not finite if the matrix is singular.
   Affine inverse() const {
     const double inv = 1 / determinant();
-    const Vec3d rows[3] = {cross(column(1), column(2)) * inv, cross(column(2), column(0)) * inv,
+    const Vec3d rows[3] = {cross(column(1), column(2)) * inv,
+                           cross(column(2), column(0)) * inv,
                            cross(column(0), column(1)) * inv};
     Affine result = *this;
     for (size_t i = 0; i < 3; ++i)

@@ -39,7 +39,8 @@ SphereIntersector::SphereIntersector(const Sphere& sphere)
 }
 
 bool SphereIntersector::is_clipped_away(Vec3d n) const {
-  return n.z < z_min_ || n.z > z_max_ || (phi_max_ < no_limit && azimuth(n.x, n.y) > phi_max_);
+  return n.z < z_min_ || n.z > z_max_ ||
+         (phi_max_ < no_limit && azimuth(n.x, n.y) > phi_max_);
 }
 
 std::optional<PreciseHit> SphereIntersector::intersect(const PreciseRay& ray,
@@ -71,7 +72,8 @@ DiskIntersector::DiskIntersector(const Disk& disk)
       inner_radius_(static_cast<double>(disk.inner_radius)),
       phi_max_(static_cast<double>(disk.phi_max)) {}
 
-std::optional<PreciseHit> DiskIntersector::intersect(const PreciseRay& ray, double t_max) const {
+std::optional<PreciseHit> DiskIntersector::intersect(const PreciseRay& ray,
+                                                     double t_max) const {
   const Vec3d o = disk_from_world_.point(ray.o), d = disk_from_world_.vector(ray.d);
   const double t = (height_ - o.z) / d.z;
   if (!is_within(t, t_max)) return std::nullopt;

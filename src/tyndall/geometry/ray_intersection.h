@@ -55,8 +55,8 @@ class DiskIntersector {
   double phi_max_;
 };
 
-/// The hit with a patch, by the quadratic equation for the ruling (a line of constant u) that the
-/// ray meets.
+/// The hit with a patch, by the quadratic equation for the ruling (a line of constant u)
+/// that the ray meets.
 std::optional<PreciseHit> intersect_patch(const BilinearPatch& patch, const PreciseRay& ray,
                                           double t_max);
 

@@ -10,8 +10,8 @@
 
 namespace tyndall {
 
-/// Density of the direction from `from` to a point `on` that a shape's sample() draws [1/sr];
-/// zero where the surface is seen edge-on or from no distance.
+/// Density of the direction from `from` to a point `on` that a shape's sample() draws
+/// [1/sr]; zero where the surface is seen edge-on or from no distance.
 template <typename S>
 float direction_pdf_by_area(const S& shape, Vec3 from, const SurfacePoint& on) {
   const Vec3d to_viewer = Vec3d(from) - Vec3d(on.p);
@@ -24,7 +24,8 @@ float direction_pdf_by_area(const S& shape, Vec3 from, const SurfacePoint& on) {
 
 /// A point of sample() by its direction. Empty where direction_pdf_by_area() is zero.
 template <typename S>
-std::optional<ShapeDirectionSample> sample_direction_by_area(const S& shape, Vec3 from, Vec2 u) {
+std::optional<ShapeDirectionSample> sample_direction_by_area(const S& shape, Vec3 from,
+                                                             Vec2 u) {
   const SurfacePoint on = shape.sample(u).point;
   const float pdf = direction_pdf_by_area(shape, from, on);
   if (!(pdf > 0)) return std::nullopt;

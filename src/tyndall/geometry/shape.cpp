@@ -21,7 +21,8 @@ ShapeSample sample_area(const Shape& shape, Vec2 u) {
   return std::visit([&](const auto& s) { return s.sample(u); }, shape);
 }
 
-std::optional<ShapeDirectionSample> sample_direction(const Shape& shape, Vec3 from, Vec2 u) {
+std::optional<ShapeDirectionSample> sample_direction(const Shape& shape, Vec3 from,
+                                                     Vec2 u) {
   return std::visit(
       [&](const auto& s) {
         if constexpr (requires { s.sample_direction(from, u); })

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tyndall/geometry/sphere.h"
 
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -27,8 +26,9 @@ Range z_range(const Sphere& s) {
 
 double area_in_sphere_space(const Sphere& s) {
   const Range z = z_range(s);
-  return std::max(static_cast<double>(s.phi_max) * static_cast<double>(s.radius) * (z.max - z.min),
-                  0.0);
+  return std::max(
+      static_cast<double>(s.phi_max) * static_cast<double>(s.radius) * (z.max - z.min),
+      0.0);
 }
 
 Vec3d direction(double cos_theta, double phi) {
@@ -36,7 +36,8 @@ Vec3d direction(double cos_theta, double phi) {
   return {sin_theta * std::cos(phi), sin_theta * std::sin(phi), cos_theta};
 }
 
-// Whether the map takes spheres to spheres, up to the rounding of a product of float matrices.
+// Whether the map takes spheres to spheres, up to the rounding of a product of float
+// matrices.
 bool keeps_spheres(const Affine& m) {
   constexpr double tolerance = 4e-6;
   const Vec3d x = m.column(0), y = m.column(1), z = m.column(2);
@@ -72,10 +73,10 @@ std::optional<Cone> cone_from_outside(const Sphere& s, Vec3 from) {
 
 // The normal of the sphere's near side at the angle from the cone's axis that u.x gives.
 //
-// With s = sin(theta) and s_m = sin(theta_max) the near point of the sphere lies at the distance
-// d (cos(theta) - sqrt(s_m^2 - s^2)); its offset from the center, divided by the radius d s_m, is
-// the sum of the two parts below. The difference of the squares is factored because both are
-// tiny for a far sphere.
+// With s = sin(theta) and s_m = sin(theta_max) the near point of the sphere lies at the
+// distance d (cos(theta) - sqrt(s_m^2 - s^2)); its offset from the center, divided by the
+// radius d s_m, is the sum of the two parts below. The difference of the squares is
+// factored because both are tiny for a far sphere.
 Vec3d near_side_normal(const Cone& cone, Vec2 u) {
   const double x_max = cone.one_minus_cos;
   const double x = static_cast<double>(u.x) * x_max;  // 1 - cos(theta)
@@ -126,10 +127,11 @@ Vec2 Sphere::parameters(Vec3d n) const {
 SurfacePoint Sphere::point(uint32_t, Vec2 uv) const {
   const Range z = z_range(*this);
   const auto r = static_cast<double>(radius);
-  const double theta = std::lerp(std::acos(z.min / r), std::acos(z.max / r),
-                                 static_cast<double>(uv.y));
+  const double theta =
+      std::lerp(std::acos(z.min / r), std::acos(z.max / r), static_cast<double>(uv.y));
   const double phi = static_cast<double>(uv.x) * static_cast<double>(phi_max);
-  const Vec3d n{std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
+  const Vec3d n{std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
+                std::cos(theta)};
   SurfacePoint on = point_at(n);
   on.uv = uv;
   return on;
@@ -201,7 +203,8 @@ std::optional<ShapeDirectionSample> Sphere::sample_direction(Vec3 from, Vec2 u) 
   if (!(pdf > 0)) return std::nullopt;
   const Vec3d normal = near_side_normal(*cone, u);
   return ShapeDirectionSample{
-      .point = point_at(normalize_or_z(Affine(world_from_sphere).transposed(normal))), .pdf = pdf};
+      .point = point_at(normalize_or_z(Affine(world_from_sphere).transposed(normal))),
+      .pdf = pdf};
 }
 
 float Sphere::direction_pdf(Vec3 from, const SurfacePoint& on) const {

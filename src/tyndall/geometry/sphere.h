@@ -12,8 +12,8 @@
 namespace tyndall {
 
 /// pbrt's (partial) sphere about the origin of its own space; its outside is away from the
-/// center, turned by `flip_normals`. A transform that is not a rotation, translation and scale
-/// makes it an ellipsoid.
+/// center, turned by `flip_normals`. A transform that is not a rotation, translation and
+/// scale makes it an ellipsoid.
 struct Sphere {
   Transform world_from_sphere;
   float radius;
@@ -21,7 +21,8 @@ struct Sphere {
   float phi_max;       ///< [rad]
   bool flip_normals;
 
-  /// `uv` as in pbrt: the azimuth as part of phi_max, and the polar angle between the clips.
+  /// `uv` as in pbrt: the azimuth as part of phi_max, and the polar angle between the
+  /// clips.
   SurfacePoint point(uint32_t primitive, Vec2 uv) const;
   /// The point whose normal in sphere space is the unit vector `n`.
   SurfacePoint point_at(Vec3d n) const;
@@ -33,8 +34,8 @@ struct Sphere {
   ShapeSample sample(Vec2 u) const;
   float pdf_area(const SurfacePoint& on) const;
 
-  /// Uniform in the cone that a whole sphere fills, if seen from outside, else by area. Empty
-  /// if nothing can be seen.
+  /// Uniform in the cone that a whole sphere fills, if seen from outside, else by area.
+  /// Empty if nothing can be seen.
   std::optional<ShapeDirectionSample> sample_direction(Vec3 from, Vec2 u) const;
   float direction_pdf(Vec3 from, const SurfacePoint& on) const;
 

@@ -16,7 +16,8 @@ struct SurfacePoint {
 /// A point drawn on a shape.
 struct ShapeSample {
   SurfacePoint point;
-  float pdf_area;  ///< density w.r.t. surface area [1/scene unit^2]; zero if there is no area
+  float
+      pdf_area;  ///< density w.r.t. surface area [1/scene unit^2]; zero if there is no area
 };
 
 /// A point drawn on a shape as seen from elsewhere.

@@ -12,7 +12,8 @@ constexpr Vec2 default_uvs[3] = {{0, 0}, {1, 0}, {1, 1}};
 }  // namespace
 
 TriangleMesh::TriangleMesh(std::vector<Vec3> positions, std::vector<Vec3i> triangles,
-                           std::vector<Vec3> normals, std::vector<Vec2> uvs, bool flip_normals)
+                           std::vector<Vec3> normals, std::vector<Vec2> uvs,
+                           bool flip_normals)
     : positions_(std::move(positions)),
       triangles_(std::move(triangles)),
       normals_(std::move(normals)),
@@ -47,12 +48,14 @@ SurfacePoint TriangleMesh::point(uint32_t primitive, Vec2 barycentric) const {
   Vec3 ng = to_float(normalize_or_z(unnormalized_normal(primitive)));
   Vec3 ns = flip_normals_ ? -ng : ng;
   if (!normals_.empty()) {
-    const Vec3 n = normals_[index[0]] * b[0] + normals_[index[1]] * b[1] + normals_[index[2]] * b[2];
+    const Vec3 n =
+        normals_[index[0]] * b[0] + normals_[index[1]] * b[1] + normals_[index[2]] * b[2];
     if (length_squared(n) > 0) ns = normalize(n);
   }
   if (dot(ng, ns) < 0) ng = -ng;
   Vec2 uv;
-  for (size_t i = 0; i < 3; ++i) uv = uv + (uvs_.empty() ? default_uvs[i] : uvs_[index[i]]) * b[i];
+  for (size_t i = 0; i < 3; ++i)
+    uv = uv + (uvs_.empty() ? default_uvs[i] : uvs_[index[i]]) * b[i];
   return {.p = to_float(position(primitive, barycentric)), .ng = ng, .ns = ns, .uv = uv};
 }
 

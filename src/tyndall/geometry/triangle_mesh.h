@@ -11,17 +11,19 @@
 
 namespace tyndall {
 
-/// Triangles with shared vertices, positions in world space (or in its group's, if instanced).
+/// Triangles with shared vertices, positions in world space (or in its group's, if
+/// instanced).
 ///
 /// The outside of a triangle is the side that sees its corners counterclockwise in a
-/// right-handed space, turned by `flip_normals`. Where normals are given they decide instead,
-/// as in pbrt-v4.
+/// right-handed space, turned by `flip_normals`. Where normals are given they decide
+/// instead, as in pbrt-v4.
 class TriangleMesh {
  public:
   /// `normals` and `uvs` are empty or as many as `positions`; normals need not be unit.
-  /// `flip_normals` turns the outside in (pbrt's ReverseOrientation xor a mirroring transform)
-  /// but leaves `normals` alone: pbrt negates those by ReverseOrientation only, and so must the
-  /// caller. Preconditions: indices in range. Triangles that are not finite are never hit.
+  /// `flip_normals` turns the outside in (pbrt's ReverseOrientation xor a mirroring
+  /// transform) but leaves `normals` alone: pbrt negates those by ReverseOrientation only,
+  /// and so must the caller. Preconditions: indices in range. Triangles that are not finite
+  /// are never hit.
   TriangleMesh(std::vector<Vec3> positions, std::vector<Vec3i> triangles,
                std::vector<Vec3> normals, std::vector<Vec2> uvs, bool flip_normals);
 
