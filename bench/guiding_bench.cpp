@@ -4,6 +4,10 @@
 #include <vector>
 
 #include "tyndall/guiding/gaussian_mixture.h"
+#include "tyndall/guiding/light_square.h"
+#include "tyndall/guiding/online_em.h"
+#include "tyndall/guiding/optical_depth_map.h"
+#include "tyndall/guiding/visibility_map.h"
 #include "tyndall/sampling/random.h"
 
 namespace tyndall {
@@ -56,6 +60,98 @@ void BM_MixtureSample(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations());
 }
 BENCHMARK(BM_MixtureSample)->ArgName("mixtures")->Arg(16)->Arg(1 << 15);
+
+void BM_LightSquareDirection(benchmark::State& state) {
+  const LightSquare square(Frame::from_z({0, 0.6f, 0.8f}), SquareMeasure::joint_sampling);
+  RandomStream random(1);
+  std::vector<Vec2> points(point_count);
+  for (Vec2& p : points) p = random.next_2d();
+  size_t i = 0;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(square.direction(points[i++ % point_count]));
+  }
+}
+BENCHMARK(BM_LightSquareDirection);
+
+void BM_LightSquarePoint(benchmark::State& state) {
+  const LightSquare square(Frame::from_z({0, 0.6f, 0.8f}), SquareMeasure::joint_sampling);
+  RandomStream random(1);
+  std::vector<Vec3> directions(point_count);
+  for (Vec3& w : directions) w = square.direction(random.next_2d()).w;
+  size_t i = 0;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(square.point(directions[i++ % point_count]));
+  }
+}
+BENCHMARK(BM_LightSquarePoint);
+
+/// One E step of an eight-component mixture; items are samples.
+void BM_EmSweep(benchmark::State& state) {
+  RandomStream random(1);
+  const GaussianMixture mixture = random_mixture(random);
+  std::vector<WeightedPoint> points(point_count);
+  for (WeightedPoint& p : points) p = {random.next_2d(), random.next_1d()};
+  for (auto _ : state) {
+    MixtureStatistics statistics;
+    statistics.add(mixture, points);
+    benchmark::DoNotOptimize(statistics);
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<int64_t>(point_count));
+}
+BENCHMARK(BM_EmSweep);
+
+std::vector<Ray> random_rays() {
+  RandomStream random(2);
+  std::vector<Ray> rays(1024);
+  for (Ray& ray : rays) {
+    const Vec2 u = random.next_2d();
+    ray.o = Vec3{random.next_1d(), random.next_1d(), random.next_1d()} * 2 - Vec3{1, 1, 1};
+    ray.d = spherical_direction(2 * u.x - 1, 6.28f * u.y);
+  }
+  return rays;
+}
+
+/// 64 points along a ray, by resolution of the map and its kind.
+void BM_VisibilityBatch(benchmark::State& state) {
+  const LightView views[] = {LightView::around({0, 0, 0}),
+                             LightView::cone({0, 0, 0}, {0, 0, 1}, 0.7f),
+                             LightView::parallel({0, 0, 1}, {{-2, -2, -2}, {2, 2, 2}})};
+  VisibilityMapSettings settings;
+  settings.resolution = static_cast<int>(state.range(1));
+  VisibilityMap map(views[state.range(0)], settings);
+  map.trace_rows(0, map.rows(), [](const Ray& r) { return r.d.x > 0.3f ? 0.7f : 2.0f; });
+  map.finish();
+  const std::vector<Ray> rays = random_rays();
+  std::vector<float> t(64), out(64);
+  for (size_t i = 0; i < t.size(); ++i) t[i] = 0.04f * static_cast<float>(i);
+  size_t i = 0;
+  for (auto _ : state) {
+    map.visibility(rays[i++ % 1024], t, out);
+    benchmark::DoNotOptimize(out.data());
+    benchmark::ClobberMemory();
+  }
+  state.SetItemsProcessed(state.iterations() * 64);
+}
+BENCHMARK(BM_VisibilityBatch)
+    ->ArgNames({"view", "resolution"})
+    ->ArgsProduct({{0, 1, 2}, {512}})
+    ->Args({0, 2048});
+
+void BM_OpticalDepthBatch(benchmark::State& state) {
+  OpticalDepthMap map(LightView::around({0, 0, 0}), 3);
+  map.trace_rows(0, map.rows(), [](const Ray&, float t0, float t1) { return t1 - t0; });
+  const std::vector<Ray> rays = random_rays();
+  std::vector<float> t(64), out(64);
+  for (size_t i = 0; i < t.size(); ++i) t[i] = 0.04f * static_cast<float>(i);
+  size_t i = 0;
+  for (auto _ : state) {
+    map.transmittance(rays[i++ % 1024], t, out);
+    benchmark::DoNotOptimize(out.data());
+    benchmark::ClobberMemory();
+  }
+  state.SetItemsProcessed(state.iterations() * 64);
+}
+BENCHMARK(BM_OpticalDepthBatch);
 
 }  // namespace
 }  // namespace tyndall

@@ -18,9 +18,7 @@ namespace {
 const Vec3 axis = normalize(Vec3{0.3f, -0.8f, 0.4f});
 const Frame frame = Frame::from_z(axis);
 
-LightSquare square(SquareMeasure measure) {
-  return LightSquare(frame, measure);
-}
+LightSquare square(SquareMeasure measure) { return LightSquare(frame, measure); }
 
 class LightSquareTest : public testing::TestWithParam<SquareMeasure> {};
 
@@ -46,9 +44,10 @@ double expected_density(SquareMeasure measure, Vec3 w) {
 
 TEST_P(LightSquareTest, UniformPointsHaveTheDensityOfTheMeasure) {
   const LightSquare s = square(GetParam());
-  const ChiSquareResult r = chi_square_sphere(
-      [&](Vec2 u) { return std::optional(s.direction(u).w); },
-      [&](Vec3 w) { return expected_density(GetParam(), w); }, 200'000, 3, cells_around_axis());
+  const ChiSquareResult r =
+      chi_square_sphere([&](Vec2 u) { return std::optional(s.direction(u).w); },
+                        [&](Vec3 w) { return expected_density(GetParam(), w); }, 200'000, 3,
+                        cells_around_axis());
   EXPECT_GT(r.p_value, sidak(0.01, 2)) << r;
   EXPECT_NEAR(r.mass, 1, 1e-4);
   EXPECT_EQ(r.samples_of_zero_pdf, 0);

@@ -17,9 +17,7 @@ float sum(const GaussianMixture::Lanes& v) {
   return ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7]));
 }
 
-double normal_cdf(double x) {
-  return 0.5 * std::erfc(-x * 0.70710678118654752);
-}
+double normal_cdf(double x) { return 0.5 * std::erfc(-x * 0.70710678118654752); }
 
 }  // namespace
 

@@ -52,9 +52,7 @@ float joint_density(float back, float sine) {
 }
 
 // The angle between w = (., ., cosine) and -z.
-float back_angle(float sine, float cosine) {
-  return std::atan2(sine, -cosine);
-}
+float back_angle(float sine, float cosine) { return std::atan2(sine, -cosine); }
 
 }  // namespace
 

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tyndall/guiding/light_view.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "tyndall/math/constants.h"
+
+namespace tyndall {
+
+namespace {
+
+constexpr float tiny = 1e-30f;
+
+// In [0, 1); NaN becomes 0.
+float to_unit(float x) {
+  x = x > 0 ? x : 0.0f;
+  return x < one_minus_epsilon ? x : one_minus_epsilon;
+}
+
+float sign(float x) { return std::copysign(1.0f, x); }
+
+Vec3 octahedral_direction(Vec2 uv) {
+  const float x = 2 * uv.x - 1, y = 2 * uv.y - 1;
+  const float z = 1 - std::abs(x) - std::abs(y);
+  const Vec3 w = z >= 0 ? Vec3{x, y, z}
+                        : Vec3{(1 - std::abs(y)) * sign(x), (1 - std::abs(x)) * sign(y), z};
+  return normalize(w);
+}
+
+}  // namespace
+
+LightView LightView::around(Vec3 p) {
+  return {Kind::sphere, Frame{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, p, 1};
+}
+
+LightView LightView::cone(Vec3 p, Vec3 axis, float cos_total) {
+  if (!(cos_total >= 0.25f)) return around(p);
+  // A little wider, so that the rim is inside.
+  const float tangent = 1.001f * safe_sqrt(1 - sqr(cos_total)) / cos_total + 1e-6f;
+  return {Kind::cone, Frame::from_z(axis), p, tangent};
+}
+
+LightView LightView::parallel(Vec3 wi, const Bounds3& scene) {
+  const float radius = std::max(scene.radius() * 1.0001f, tiny);
+  return {Kind::parallel, Frame::from_z(wi), scene.is_empty() ? Vec3{} : scene.center(),
+          radius};
+}
+
+template <LightView::Kind kind>
+ViewPoint LightView::project_local(float x, float y, float z) const {
+  if constexpr (kind == Kind::sphere) {
+    const float distance = std::sqrt(x * x + y * y + z * z);
+    const float inverse = 1 / std::max(std::abs(x) + std::abs(y) + std::abs(z), tiny);
+    const float a = x * inverse, b = y * inverse;
+    const float folded_a = (1 - std::abs(b)) * sign(a),
+                folded_b = (1 - std::abs(a)) * sign(b);
+    const float u = z < 0 ? folded_a : a, v = z < 0 ? folded_b : b;
+    return {{to_unit(0.5f * u + 0.5f), to_unit(0.5f * v + 0.5f)}, distance};
+  } else if constexpr (kind == Kind::cone) {
+    const float distance = std::sqrt(x * x + y * y + z * z);
+    const float inverse = 1 / std::max(z * scale_, tiny);
+    const float a = x * inverse, b = y * inverse;
+    const bool outside = !(std::max(std::abs(a), std::abs(b)) <= 1 && z > 0);
+    const float u = to_unit(0.5f * a + 0.5f), v = to_unit(0.5f * b + 0.5f);
+    return {{outside ? -1.0f : u, outside ? -1.0f : v}, distance};
+  } else {
+    const float inverse = 0.5f / scale_;
+    return {{to_unit(x * inverse + 0.5f), to_unit(y * inverse + 0.5f)}, scale_ - z};
+  }
+}
+
+ViewPoint LightView::project(Vec3 p) const {
+  const Vec3 q = frame_.to_local(p - origin_);
+  switch (kind_) {
+    case Kind::sphere:
+      return project_local<Kind::sphere>(q.x, q.y, q.z);
+    case Kind::cone:
+      return project_local<Kind::cone>(q.x, q.y, q.z);
+    default:
+      return project_local<Kind::parallel>(q.x, q.y, q.z);
+  }
+}
+
+template <LightView::Kind kind>
+void LightView::project_batch(Vec3 o, Vec3 d, std::span<const float> t,
+                              ViewBatch& out) const {
+  for (size_t i = 0; i < t.size(); ++i) {
+    const ViewPoint q =
+        project_local<kind>(o.x + t[i] * d.x, o.y + t[i] * d.y, o.z + t[i] * d.z);
+    out.u[i] = q.uv.x;
+    out.v[i] = q.uv.y;
+    out.distance[i] = q.distance;
+  }
+}
+
+void LightView::project(const Ray& ray, std::span<const float> t, ViewBatch& out) const {
+  assert(t.size() <= ViewBatch::capacity);
+  const Vec3 o = frame_.to_local(ray.o - origin_), d = frame_.to_local(ray.d);
+  switch (kind_) {
+    case Kind::sphere:
+      return project_batch<Kind::sphere>(o, d, t, out);
+    case Kind::cone:
+      return project_batch<Kind::cone>(o, d, t, out);
+    default:
+      return project_batch<Kind::parallel>(o, d, t, out);
+  }
+}
+
+Ray LightView::ray(Vec2 uv) const {
+  const float a = 2 * uv.x - 1, b = 2 * uv.y - 1;
+  switch (kind_) {
+    case Kind::sphere:
+      return {origin_, frame_.to_world(octahedral_direction(uv))};
+    case Kind::cone:
+      return {origin_, frame_.to_world(normalize(Vec3{a * scale_, b * scale_, 1}))};
+    default:
+      return {origin_ + frame_.to_world(Vec3{a, b, 1} * scale_), -frame_.z};
+  }
+}
+
+float LightView::extent() const {
+  switch (kind_) {
+    case Kind::sphere:
+      return std::sqrt(4 * pi);  // square root of the solid angle
+    case Kind::cone:
+      return 2 * std::atan(scale_);
+    default:
+      return 2 * scale_;
+  }
+}
+
+}  // namespace tyndall

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tyndall/guiding/visibility_map.h"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cmath>
+
+#include "tyndall/math/constants.h"
+#include "tyndall/sampling/random.h"
+
+namespace tyndall {
+
+namespace {
+
+/// Of every quarter of the sorted distances the middle one. Of two middle ones `upper` chooses:
+/// always the same would predict too much or too little on average.
+std::array<float, 4> quartiles(std::span<float> distances, bool upper) {
+  std::sort(distances.begin(), distances.end());
+  const size_t group = distances.size() / 4;
+  const size_t middle = upper ? group / 2 : (group - 1) / 2;
+  return {distances[middle], distances[group + middle], distances[2 * group + middle],
+          distances[3 * group + middle]};
+}
+
+}  // namespace
+
+VisibilityMap::VisibilityMap(const LightView& view, const VisibilityMapSettings& settings)
+    : view_(view),
+      resolution_(settings.resolution),
+      rays_per_texel_(settings.rays_per_texel),
+      floor_(settings.floor),
+      seed_(settings.seed) {
+  assert(std::has_single_bit(static_cast<unsigned>(resolution_)) && resolution_ <= 1 << 13);
+  assert(rays_per_texel_ > 0 && rays_per_texel_ % 4 == 0);
+  uint32_t size = 0;
+  for (uint32_t side = static_cast<uint32_t>(resolution_); side > 0; side /= 2) {
+    level_offset_.push_back(size);
+    size += side * side;
+  }
+  texels_.resize(size + 1, Texel{{infinity, infinity, infinity, infinity}});
+  texels_.back() = Texel{{-1, -1, -1, -1}};
+}
+
+VisibilityMap::Texel VisibilityMap::trace_texel(int x, int y, const Trace& trace,
+                                                const Origin& origin) const {
+  const auto rays = static_cast<uint32_t>(rays_per_texel_);
+  RandomStream random(hash(seed_, static_cast<uint64_t>(x), static_cast<uint64_t>(y)));
+  std::vector<float> distances(rays);
+  for (uint32_t i = 0; i < rays; ++i) {
+    // Stratified: columns of width 1 / rays, two rows.
+    const float column =
+        (static_cast<float>(i) + random.next_1d()) / static_cast<float>(rays);
+    const float row = 0.5f * (static_cast<float>(i & 1) + random.next_1d());
+    Ray ray = view_.ray(Vec2{static_cast<float>(x) + column, static_cast<float>(y) + row} *
+                        (1 / static_cast<float>(resolution_)));
+    if (origin) ray.o = origin(random.next_2d());
+    const float distance = trace(ray);
+    distances[i] = distance > 0 ? distance : 0;  // NaN too
+  }
+  return {quartiles(distances, (x + y) % 2 == 1)};
+}
+
+void VisibilityMap::trace_rows(int begin, int end, const Trace& trace,
+                               const Origin& origin) {
+  assert(0 <= begin && begin <= end && end <= resolution_);
+  for (int y = begin; y < end; ++y)
+    for (int x = 0; x < resolution_; ++x)
+      texels_[static_cast<size_t>(y) * static_cast<size_t>(resolution_) +
+              static_cast<size_t>(x)] = trace_texel(x, y, trace, origin);
+}
+
+void VisibilityMap::finish() {
+  for (size_t level = 1; level < level_offset_.size(); ++level) {
+    const auto side = static_cast<uint32_t>(resolution_) >> level;
+    const uint32_t fine = level_offset_[level - 1], coarse = level_offset_[level];
+    for (uint32_t y = 0; y < side; ++y)
+      for (uint32_t x = 0; x < side; ++x) {
+        std::array<float, 16> distances;
+        for (uint32_t i = 0; i < 4; ++i) {
+          const uint32_t child = fine + (2 * y + i / 2) * 2 * side + 2 * x + i % 2;
+          std::copy_n(texels_[child].distance.begin(), 4, distances.begin() + 4 * i);
+        }
+        texels_[coarse + y * side + x].distance = quartiles(distances, (x + y) % 2 == 1);
+      }
+  }
+}
+
+uint32_t VisibilityMap::index(float u, float v, int level) const {
+  const int side = resolution_ >> level;
+  const auto x = static_cast<int32_t>(u * static_cast<float>(side));
+  const auto y = static_cast<int32_t>(v * static_cast<float>(side));
+  const uint32_t inside =
+      level_offset_[static_cast<size_t>(level)] + static_cast<uint32_t>(y * side + x);
+  return u < 0 ? static_cast<uint32_t>(texels_.size() - 1) : inside;
+}
+
+float VisibilityMap::predict(const Texel& texel, float distance) const {
+  int visible = 0;
+  for (const float d : texel.distance) visible += d > distance ? 1 : 0;
+  return floor_ + (1 - floor_) * 0.25f * static_cast<float>(visible);
+}
+
+float VisibilityMap::visibility(Vec3 p, int level) const {
+  const ViewPoint q = view_.project(p);
+  return predict(texels_[index(q.uv.x, q.uv.y, level)], q.distance);
+}
+
+void VisibilityMap::visibility(const Ray& ray, std::span<const float> t,
+                               std::span<float> out, int level) const {
+  assert(out.size() == t.size() && 0 <= level && level < levels());
+  ViewBatch batch;
+  std::array<uint32_t, ViewBatch::capacity> texel;
+  for (size_t begin = 0; begin < t.size(); begin += ViewBatch::capacity) {
+    const size_t n = std::min(ViewBatch::capacity, t.size() - begin);
+    view_.project(ray, t.subspan(begin, n), batch);
+    for (size_t i = 0; i < n; ++i) texel[i] = index(batch.u[i], batch.v[i], level);
+    for (size_t i = 0; i < n; ++i)
+      out[begin + i] = predict(texels_[texel[i]], batch.distance[i]);
+  }
+}
+
+int VisibilityMap::level_of(float footprint) const {
+  const float texel = view_.extent() / static_cast<float>(resolution_);
+  const float level = std::round(std::log2(std::max(footprint / texel, 1.0f)));
+  return level < static_cast<float>(levels()) ? static_cast<int>(level) : levels() - 1;
+}
+
+void VisibilityMap::write(ByteWriter& out) const {
+  out.write(static_cast<uint32_t>(resolution_));
+  const size_t finest = static_cast<size_t>(resolution_) * static_cast<size_t>(resolution_);
+  for (size_t i = 0; i < finest; ++i)
+    for (const float d : texels_[i].distance) out.write(d);
+}
+
+}  // namespace tyndall

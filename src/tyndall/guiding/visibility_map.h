@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "tyndall/guiding/byte_stream.h"
+#include "tyndall/guiding/light_view.h"
+
+namespace tyndall {
+
+struct VisibilityMapSettings {
+  int resolution = 512;    ///< texels per side of the finest level; a power of two
+  int rays_per_texel = 4;  ///< a multiple of four
+  float floor = 0.05f;     ///< least predicted visibility: the price of being wrong
+  uint64_t seed = 0;
+};
+
+/// Predicts which share of a light a point sees, from rays that were traced out of the
+/// light.
+///
+/// A texel keeps four quantiles of the distances at which its rays met an occluder; what it
+/// predicts for a distance is the share of them that lie beyond. A pyramid of such texels
+/// predicts the mean over wider footprints. A prediction may be wrong; it costs variance,
+/// never bias, because it is never below the floor.
+class VisibilityMap {
+ public:
+  /// Distance from `o` to the first opaque surface along the unit vector `d`; infinity if
+  /// there is none.
+  using Trace = std::function<float(const Ray& ray)>;
+  /// A point of an area light, for a point of the unit square.
+  using Origin = std::function<Vec3(Vec2 u)>;
+
+  /// Everything visible, until traced. Sizes: 16 bytes a texel, all levels 4/3 of the
+  /// finest.
+  VisibilityMap(const LightView& view, const VisibilityMapSettings& settings);
+
+  int rows() const { return resolution_; }
+  /// Traces rows [begin, end) of the finest level. Different rows may be traced by
+  /// different threads; the result does not depend on how they are divided. Area lights
+  /// give `origin`; their rays leave from all over the light, in parallel.
+  void trace_rows(int begin, int end, const Trace& trace, const Origin& origin = {});
+  /// Builds the coarser levels; to be called once all rows are traced.
+  void finish();
+
+  /// Share of the light that the point sees, in [floor, 1]; the mean over a texel of
+  /// `level`.
+  float visibility(Vec3 p, int level = 0) const;
+  /// The same for the points ray.at(t[i]); a few nanoseconds each. `out` is as long as `t`.
+  void visibility(const Ray& ray, std::span<const float> t, std::span<float> out,
+                  int level = 0) const;
+
+  int levels() const { return static_cast<int>(level_offset_.size()); }
+  /// The level whose texels are about `footprint` wide: an angle seen from the light [rad],
+  /// or a length for parallel light. In equi-angular bins that angle is the same for all
+  /// bins.
+  int level_of(float footprint) const;
+  float floor() const { return floor_; }
+  const LightView& view() const { return view_; }
+  size_t memory() const { return texels_.size() * sizeof(Texel); }  ///< [bytes]
+
+  /// Appends the finest level: rows(), then four distances a texel.
+  void write(ByteWriter& out) const;
+
+ private:
+  struct alignas(16) Texel {
+    std::array<float, 4> distance;  // ascending
+  };
+
+  Texel trace_texel(int x, int y, const Trace& trace, const Origin& origin) const;
+  uint32_t index(float u, float v, int level) const;
+  float predict(const Texel& texel, float distance) const;
+
+  LightView view_;
+  int resolution_, rays_per_texel_;
+  float floor_;
+  uint64_t seed_;
+  std::vector<uint32_t> level_offset_;
+  std::vector<Texel>
+      texels_;  // finest level first; the last one stands for "out of the cone"
+};
+
+}  // namespace tyndall
