@@ -34,6 +34,8 @@ struct RenderSettings {
   uint32_t samples_per_pixel = 16;
   uint64_t seed = 0;
   std::string output = "tyndall.exr";
+  /// What pixels are multiplied by: pbrt-v4's exposure time * iso / 100.
+  float imaging_ratio = 1;
   /// Integrator options by dotted name, as `--set learned.direction=off` gives them.
   std::map<std::string, std::string> options;
 };

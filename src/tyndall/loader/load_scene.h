@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "tyndall/integrators/render_settings.h"
 #include "tyndall/loader/diagnostics.h"
@@ -18,6 +19,7 @@ struct LoadOptions {
 struct LoadedScene {
   SceneDescription scene;
   RenderSettings settings;
+  std::vector<Diagnostic> warnings;  ///< the same that on_warning was called with
 };
 
 /// Reads a pbrt-v4 scene file with all files that it names. Throws SceneError for whatever is

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tyndall/loader/named_spectra.h"
+
+#include <algorithm>
+#include <array>
+
+#include "tyndall/loader/color_space.h"
+
+namespace tyndall::loader {
+namespace {
+
+struct Entry {
+  std::string_view name;
+  Rgb value;
+};
+
+constexpr Rgb grey(float x) { return {x, x, x}; }
+
+// Optical constants at the dominant wavelengths of the Rec. 709 primaries, 611, 549 and 465 nm:
+// metals from [JC72] and [Rakic95], brass from [Querry85], oxides from [DeVore51] and
+// [Stephens52], glasses at 587.6 nm from Schott's catalogue.
+constexpr std::array materials{
+    Entry{"glass-BK7", grey(1.5168f)},
+    Entry{"glass-BAF10", grey(1.6700f)},
+    Entry{"glass-F5", grey(1.6034f)},
+    Entry{"glass-F11", grey(1.6206f)},
+    Entry{"glass-FK51A", grey(1.4866f)},
+    Entry{"glass-LASF9", grey(1.8503f)},
+    Entry{"glass-SF5", grey(1.6727f)},
+    Entry{"glass-SF10", grey(1.7283f)},
+    Entry{"glass-SF11", grey(1.7847f)},
+    Entry{"metal-Ag-eta", {0.0580f, 0.0600f, 0.0429f}},
+    Entry{"metal-Ag-k", {4.2100f, 3.5974f, 2.6484f}},
+    Entry{"metal-Al-eta", {1.2967f, 0.9566f, 0.6502f}},
+    Entry{"metal-Al-k", {7.3627f, 6.6858f, 5.6326f}},
+    Entry{"metal-Au-eta", {0.2111f, 0.4216f, 1.3499f}},
+    Entry{"metal-Au-k", {3.2754f, 2.3459f, 1.8806f}},
+    Entry{"metal-Cu-eta", {0.2757f, 1.0180f, 1.1720f}},
+    Entry{"metal-Cu-k", {3.3726f, 2.5823f, 2.4230f}},
+    Entry{"metal-CuZn-eta", {0.4440f, 0.5270f, 1.0940f}},
+    Entry{"metal-CuZn-k", {3.6950f, 2.7650f, 1.8290f}},
+    Entry{"metal-MgO-eta", {1.7366f, 1.7400f, 1.7489f}},
+    Entry{"metal-MgO-k", grey(0)},
+    Entry{"metal-TiO2-eta", {2.6015f, 2.6506f, 2.7684f}},
+    Entry{"metal-TiO2-k", grey(0)},
+};
+
+struct Illuminant {
+  std::string_view name;
+  float x, y;  // CIE 1931 chromaticity
+};
+
+// [CIE15], except ACES's white.
+constexpr std::array illuminants{
+    Illuminant{"stdillum-A", 0.44757f, 0.40745f},
+    Illuminant{"stdillum-D50", 0.34567f, 0.35850f},
+    Illuminant{"stdillum-D55", 0.33242f, 0.34743f},
+    Illuminant{"stdillum-D65", 0.31270f, 0.32900f},
+    Illuminant{"stdillum-D75", 0.29902f, 0.31485f},
+    Illuminant{"stdillum-F1", 0.31310f, 0.33727f},
+    Illuminant{"stdillum-F2", 0.37208f, 0.37529f},
+    Illuminant{"stdillum-F3", 0.40910f, 0.39430f},
+    Illuminant{"stdillum-F4", 0.44018f, 0.40329f},
+    Illuminant{"stdillum-F5", 0.31379f, 0.34531f},
+    Illuminant{"stdillum-F6", 0.37790f, 0.38835f},
+    Illuminant{"stdillum-F7", 0.31292f, 0.32933f},
+    Illuminant{"stdillum-F8", 0.34588f, 0.35875f},
+    Illuminant{"stdillum-F9", 0.37417f, 0.37281f},
+    Illuminant{"stdillum-F10", 0.34609f, 0.35986f},
+    Illuminant{"stdillum-F11", 0.38052f, 0.37713f},
+    Illuminant{"stdillum-F12", 0.43695f, 0.40441f},
+    Illuminant{"illum-acesD60", 0.32168f, 0.33767f},
+};
+
+}  // namespace
+
+std::optional<Rgb> named_spectrum(std::string_view name) {
+  for (const Entry& entry : materials)
+    if (entry.name == name) return entry.value;
+  for (const Illuminant& light : illuminants)
+    if (light.name == name)
+      return clamp_negative(
+          rec709_from_xyz(light.x / light.y, 1, (1 - light.x - light.y) / light.y));
+  return std::nullopt;
+}
+
+std::vector<std::string_view> spectrum_names() {
+  std::vector<std::string_view> names;
+  for (const Entry& entry : materials) names.push_back(entry.name);
+  for (const Illuminant& light : illuminants) names.push_back(light.name);
+  return names;
+}
+
+}  // namespace tyndall::loader

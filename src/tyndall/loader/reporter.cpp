@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tyndall/loader/reporter.h"
+
+#include <algorithm>
+
+#include "tyndall/loader/excerpt.h"
+
+namespace tyndall::loader {
+
+Diagnostic Reporter::diagnostic(Severity severity, Span where, std::string message) const {
+  const SourceLocation at = sources_.locate(where);
+  std::string text =
+      fmt::format("{}:{}:{}: {}: {}\n{}", at.file, at.line, at.column,
+                  severity == Severity::error ? "error" : "warning", message,
+                  excerpt(sources_.line(where), at.line, static_cast<size_t>(at.column - 1),
+                          where.end - where.begin));
+  for (auto from = sources_[where.source].included_at; from;
+       from = sources_[from->source].included_at) {
+    const SourceLocation place = sources_.locate(*from);
+    text += fmt::format("\n{}:{}:{}: note: included from here", place.file, place.line,
+                        place.column);
+  }
+  return {severity, at, std::move(message), std::move(text)};
+}
+
+void Reporter::add_error(Span where, std::string message) {
+  errors_.push_back(diagnostic(Severity::error, where, std::move(message)));
+  if (errors_.size() >= max_errors) throw_if_errors();
+}
+
+void Reporter::add_warning(Span where, std::string message) {
+  const int count = ++warned_[message];
+  if (count > max_alike) return;
+  if (count == max_alike) message += " (the last time that this is said)";
+  warnings_.push_back(diagnostic(Severity::warning, where, std::move(message)));
+  if (options_.on_warning) options_.on_warning(warnings_.back());
+}
+
+void Reporter::throw_if_errors() const {
+  if (has_errors()) throw SceneError(errors_);
+}
+
+}  // namespace tyndall::loader

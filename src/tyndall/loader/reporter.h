@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <fmt/core.h>
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tyndall/loader/diagnostics.h"
+#include "tyndall/loader/load_scene.h"
+#include "tyndall/loader/source_library.h"
+
+namespace tyndall::loader {
+
+/// What is wrong with one directive; the parser reports it and goes on with the next directive.
+struct Failure {
+  Span where;
+  std::string message;
+};
+
+template <typename... Args>
+[[noreturn]] void fail(Span where, fmt::format_string<Args...> format, Args&&... args) {
+  throw Failure{where, fmt::format(format, std::forward<Args>(args)...)};
+}
+
+/// Collects errors and passes warnings on.
+class Reporter {
+ public:
+  static constexpr size_t max_errors = 20;
+  static constexpr int max_alike = 10;  ///< warnings with the same words that are passed on
+
+  Reporter(const SourceLibrary& sources, const LoadOptions& options)
+      : sources_(sources), options_(options) {}
+
+  /// Throws SceneError when it is the last of `max_errors`.
+  template <typename... Args>
+  void error(Span where, fmt::format_string<Args...> format, Args&&... args) {
+    add_error(where, fmt::format(format, std::forward<Args>(args)...));
+  }
+  template <typename... Args>
+  void warning(Span where, fmt::format_string<Args...> format, Args&&... args) {
+    add_warning(where, fmt::format(format, std::forward<Args>(args)...));
+  }
+  /// Valid pbrt-v4 that tyndall cannot do: a warning, or an error in strict mode.
+  template <typename... Args>
+  void unsupported(Span where, fmt::format_string<Args...> format, Args&&... args) {
+    std::string message = fmt::format(format, std::forward<Args>(args)...);
+    options_.strict ? add_error(where, std::move(message))
+                    : add_warning(where, std::move(message));
+  }
+  void add_error(Span where, std::string message);
+
+  bool has_errors() const { return !errors_.empty(); }
+  /// Throws SceneError if there was any error.
+  void throw_if_errors() const;
+  std::vector<Diagnostic> take_warnings() { return std::move(warnings_); }
+  const SourceLibrary& sources() const { return sources_; }
+
+ private:
+  void add_warning(Span where, std::string message);
+  Diagnostic diagnostic(Severity severity, Span where, std::string message) const;
+
+  const SourceLibrary& sources_;
+  const LoadOptions& options_;
+  std::vector<Diagnostic> errors_, warnings_;
+  std::map<std::string, int> warned_;  // how often, by message
+};
+
+}  // namespace tyndall::loader

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+// Directives that describe the world.
+#include <algorithm>
+
+#include "tyndall/loader/area_light_power.h"
+#include "tyndall/loader/nearest_name.h"
+#include "tyndall/loader/scene_builder.h"
+
+namespace tyndall::loader {
+
+void SceneBuilder::make_named_medium(const std::string& name, ParameterSet parameters) {
+  if (!media_by_name_.emplace(name, no_medium).second)
+    fail(directive_, "there is already a medium named \"{}\"", name);
+  std::optional<Medium> medium = make_medium(parameters, state_.ctm, files_);
+  parameters.report_unknown();
+  if (!medium) return;
+  media_by_name_[name] = static_cast<int>(media_.size());
+  media_.push_back(std::move(*medium));
+}
+
+void SceneBuilder::medium_interface(const std::string& inside, const std::string& outside) {
+  state_.media = {inside, outside, true, directive_};
+}
+
+void SceneBuilder::make_named_material(const std::string& name, ParameterSet parameters) {
+  if (!materials_.emplace(name, DiffuseBsdf{Rgb(0.5f)}).second)
+    fail(directive_, "there is already a material named \"{}\"", name);
+  if (!parameters.has("type"))
+    fail(directive_, "{}: parameter \"string type\" is missing", parameters.owner());
+  const std::string type = parameters.string("type", "");
+  materials_[name] = make_material(type, parameters, textures_, materials_);
+  parameters.report_unknown();
+}
+
+void SceneBuilder::named_material(const std::string& name) {
+  state_.material = {DiffuseBsdf{Rgb(0.5f)}, name, directive_};
+}
+
+void SceneBuilder::material(const std::string& type, ParameterSet parameters) {
+  state_.material = {make_material(type, parameters, textures_, materials_), "", directive_};
+  parameters.report_unknown();
+}
+
+void SceneBuilder::texture(const std::string& name, const std::string& kind,
+                           const std::string& type, ParameterSet parameters) {
+  textures_.make(name, kind, type, parameters);
+  parameters.report_unknown();
+}
+
+void SceneBuilder::light_source(const std::string& type, ParameterSet parameters) {
+  std::optional<Light> light = make_light(type, parameters, state_.ctm, files_);
+  parameters.report_unknown();
+  if (light) lights_.push_back(std::move(*light));
+}
+
+void SceneBuilder::area_light_source(const std::string& type, ParameterSet parameters) {
+  state_.area_light = make_area_light(type, parameters, files_);
+  parameters.report_unknown();
+}
+
+// pbrt-v4 lets rays through where alpha is zero.
+bool SceneBuilder::is_invisible(ParameterSet& parameters) const {
+  const Parameter* alpha =
+      parameters.find("alpha", {ParameterType::number, ParameterType::texture});
+  if (!alpha) return false;
+  if (alpha->type == ParameterType::texture) {
+    parameters.unsupported("alpha",
+                           "an alpha texture is not supported yet; the shape is opaque");
+    return false;
+  }
+  const float value = parameters.number("alpha", 1, {0, 1});
+  if (value != 0 && value != 1)
+    parameters.unsupported("alpha", "alpha between 0 and 1 is not supported yet; the shape is opaque");
+  if (value == 0 && state_.area_light)
+    parameters.unsupported("alpha",
+                           "a light that cannot be seen is not supported yet; the shape is opaque");
+  return value == 0 && !state_.area_light;
+}
+
+std::vector<SceneBuilder::PendingSurface>& SceneBuilder::target_surfaces() {
+  return is_in_object_ ? objects_.back() : surfaces_;
+}
+
+void SceneBuilder::shape(const std::string& type, ParameterSet parameters) {
+  std::optional<Shape> shape =
+      make_shape(type, parameters, state_.ctm, state_.reverse_orientation, files_);
+  const bool is_hidden = is_invisible(parameters);
+  parameters.report_unknown();
+  if (shape && !is_hidden) add_surface(type, std::move(*shape), parameters);
+}
+
+void SceneBuilder::add_surface(const std::string& type, Shape shape, ParameterSet& parameters) {
+  const SourceLocation at = reporter_.sources().locate(directive_);
+  const std::string name = fmt::format("{} at {}:{}:{}", type, at.file, at.line, at.column);
+  if (state_.area_light && is_in_object_)
+    parameters.reporter().unsupported(
+        directive_, "{}: an area light in an object is not supported; it does not shine",
+        parameters.owner());
+  for (auto& [part, emission] :
+       with_emission(std::move(shape), is_in_object_ ? std::nullopt : state_.area_light)) {
+    target_surfaces().push_back(
+        {{std::move(part), DiffuseBsdf{}, {}, emission, name}, state_.material, state_.media});
+  }
+}
+
+void SceneBuilder::object_instance(const std::string& name) {
+  if (is_in_object_) fail(directive_, "an object cannot be placed within an object");
+  instances_.push_back({name, state_.ctm, directive_});
+}
+
+}  // namespace tyndall::loader
