@@ -12,7 +12,8 @@ constexpr float area_tolerance = 1e-4f;  // relative; below it pieces count as e
 float triangle_area(const TriangleMesh& mesh, Vec3i t) {
   const std::vector<Vec3>& p = mesh.positions();
   const Vec3 a = p[static_cast<size_t>(t.x)];
-  return 0.5f * length(cross(p[static_cast<size_t>(t.y)] - a, p[static_cast<size_t>(t.z)] - a));
+  return 0.5f *
+         length(cross(p[static_cast<size_t>(t.y)] - a, p[static_cast<size_t>(t.z)] - a));
 }
 
 AreaEmission emission_of(const AreaLightRequest& light, float area) {
@@ -25,7 +26,8 @@ bool are_equal(const std::vector<float>& areas) {
   return *max - *min <= area_tolerance * *max;
 }
 
-std::vector<EmissivePart> parts_of(const TriangleMesh& mesh, const AreaLightRequest& light) {
+std::vector<EmissivePart> parts_of(const TriangleMesh& mesh,
+                                   const AreaLightRequest& light) {
   std::vector<float> areas;
   for (const Vec3i& t : mesh.triangles()) areas.push_back(triangle_area(mesh, t));
   if (areas.empty() || are_equal(areas))
@@ -42,11 +44,13 @@ std::vector<EmissivePart> parts_of(const TriangleMesh& mesh, const AreaLightRequ
   return parts;
 }
 
-std::vector<EmissivePart> parts_of(const BilinearMesh& mesh, const AreaLightRequest& light) {
+std::vector<EmissivePart> parts_of(const BilinearMesh& mesh,
+                                   const AreaLightRequest& light) {
   std::vector<EmissivePart> parts;
   for (const std::array<int, 4>& patch : mesh.patches) {
     BilinearMesh part{{}, {{0, 1, 2, 3}}, {}, {}, mesh.flip_normals};
-    for (const int v : patch) part.positions.push_back(mesh.positions[static_cast<size_t>(v)]);
+    for (const int v : patch)
+      part.positions.push_back(mesh.positions[static_cast<size_t>(v)]);
     const float part_area = area(Shape(part));
     parts.push_back({std::move(part), emission_of(light, part_area)});
   }
@@ -66,7 +70,8 @@ std::vector<EmissivePart> with_emission(Shape shape,
   }
   if (const auto* triangles = std::get_if<TriangleMesh>(&shape))
     return parts_of(*triangles, *light);
-  if (const auto* patches = std::get_if<BilinearMesh>(&shape)) return parts_of(*patches, *light);
+  if (const auto* patches = std::get_if<BilinearMesh>(&shape))
+    return parts_of(*patches, *light);
   const AreaEmission emission = emission_of(*light, area(shape));
   whole.push_back({std::move(shape), emission});
   return whole;

@@ -16,8 +16,9 @@ struct EmissivePart {
   std::optional<AreaEmission> emission;
 };
 
-/// The shape with the emission that `light` asks for. "power" holds for each triangle or patch
-/// by itself, as in pbrt-v4; a mesh whose pieces differ in area is cut into them.
-std::vector<EmissivePart> with_emission(Shape shape, const std::optional<AreaLightRequest>& light);
+/// The shape with the emission that `light` asks for. "power" holds for each triangle or
+/// patch by itself, as in pbrt-v4; a mesh whose pieces differ in area is cut into them.
+std::vector<EmissivePart> with_emission(Shape shape,
+                                        const std::optional<AreaLightRequest>& light);
 
 }  // namespace tyndall::loader

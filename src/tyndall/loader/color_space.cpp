@@ -41,10 +41,14 @@ std::optional<ColorSpace> color_space_by_name(std::string_view name) {
 Rgb rec709_from(ColorSpace space, Rgb color) {
   if (is_grey(color)) return color;  // exactly grey, whatever the rounding of the matrices
   switch (space) {
-    case ColorSpace::srgb: return color;
-    case ColorSpace::dci_p3: return multiply(from_dci_p3, color);
-    case ColorSpace::rec2020: return multiply(from_rec2020, color);
-    case ColorSpace::aces2065_1: return multiply(from_aces2065_1, color);
+    case ColorSpace::srgb:
+      return color;
+    case ColorSpace::dci_p3:
+      return multiply(from_dci_p3, color);
+    case ColorSpace::rec2020:
+      return multiply(from_rec2020, color);
+    case ColorSpace::aces2065_1:
+      return multiply(from_aces2065_1, color);
   }
   return color;
 }

@@ -106,7 +106,9 @@ void include(Parser& in, SceneBuilder&) {
   in.include(in.string("a file name"), directive.where, directive.text == "Import");
 }
 
-void active_transform(Parser& in, SceneBuilder& scene) { scene.active_transform(in.value()); }
+void active_transform(Parser& in, SceneBuilder& scene) {
+  scene.active_transform(in.value());
+}
 
 void transform_times(Parser& in, SceneBuilder& scene) {
   in.numbers<2>();

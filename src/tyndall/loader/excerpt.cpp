@@ -16,8 +16,12 @@ bool is_continuation(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 
 // Bytes in the UTF-8 sequence at the start of `text`; zero if there is no valid one.
 size_t sequence_length(std::string_view text) {
   const auto first = static_cast<unsigned char>(text[0]);
-  const size_t length = first < 0x80 ? 1 : first < 0xC2 ? 0 : first < 0xE0 ? 2 : first < 0xF0 ? 3
-                                                                       : first < 0xF5 ? 4 : 0;
+  const size_t length = first < 0x80   ? 1
+                        : first < 0xC2 ? 0
+                        : first < 0xE0 ? 2
+                        : first < 0xF0 ? 3
+                        : first < 0xF5 ? 4
+                                       : 0;
   if (length > text.size()) return 0;
   for (size_t i = 1; i < length; ++i)
     if (!is_continuation(text[i])) return 0;
@@ -54,7 +58,8 @@ std::string excerpt(std::string_view line, int line_number, size_t begin, size_t
   const size_t last = std::min(line.size(), first + max_width);
   const size_t end = std::min(begin + std::min(length, line.size()), last);
 
-  const std::string before = (first > 0 ? "..." : "") + printable(line.substr(first, begin - first));
+  const std::string before =
+      (first > 0 ? "..." : "") + printable(line.substr(first, begin - first));
   const std::string meant = printable(line.substr(begin, end - begin));
   const std::string after = printable(line.substr(end, last - end));
   const size_t tildes = std::max<size_t>(columns(meant), 1) - 1;

@@ -6,9 +6,9 @@
 
 namespace tyndall::loader {
 
-/// The source line with its number, and below it a caret at byte `begin` with tildes to the end
-/// of the `length` bytes meant. Long lines are cut to the part around the caret; what cannot be
-/// printed shows as a question mark. Two lines, no trailing newline.
+/// The source line with its number, and below it a caret at byte `begin` with tildes to the
+/// end of the `length` bytes meant. Long lines are cut to the part around the caret; what
+/// cannot be printed shows as a question mark. Two lines, no trailing newline.
 std::string excerpt(std::string_view line, int line_number, size_t begin, size_t length);
 
 }  // namespace tyndall::loader

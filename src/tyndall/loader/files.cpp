@@ -21,7 +21,9 @@ struct CloseGzip {
   void operator()(gzFile file) const { gzclose(file); }
 };
 
-std::string folder_of(const std::string& path) { return fs::path(path).parent_path().string(); }
+std::string folder_of(const std::string& path) {
+  return fs::path(path).parent_path().string();
+}
 
 }  // namespace
 

@@ -15,8 +15,8 @@ class FileFinder {
   /// `scene_path` is the scene file; its folder is where relative names start.
   FileFinder(const std::string& scene_path, const SourceLibrary& sources);
 
-  /// The path of `name`: from the scene's folder or, if it is not there, from the folder of the
-  /// file that names it. Throws Failure at `where` if there is no such file.
+  /// The path of `name`: from the scene's folder or, if it is not there, from the folder of
+  /// the file that names it. Throws Failure at `where` if there is no such file.
   std::string find(const std::string& name, Span where) const;
 
  private:
@@ -27,8 +27,8 @@ class FileFinder {
 /// The largest file that the loader reads, after decompression [bytes].
 inline constexpr size_t max_file_size = size_t{2} << 30;
 
-/// All bytes of a file, decompressed if it is in gzip format. Throws std::runtime_error with the
-/// system's or zlib's words, without the path.
+/// All bytes of a file, decompressed if it is in gzip format. Throws std::runtime_error
+/// with the system's or zlib's words, without the path.
 std::string read_bytes(const std::string& path);
 
 }  // namespace tyndall::loader

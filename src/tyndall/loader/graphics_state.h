@@ -37,14 +37,15 @@ struct AreaLightRequest {
 
 /// What AttributeBegin saves and AttributeEnd restores.
 struct GraphicsState {
-  Transform ctm;  ///< world from what is being described
+  Transform ctm;            ///< world from what is being described
   bool moves_start = true;  ///< transformations apply to the start of the shutter time
   bool reverse_orientation = false;
   ColorSpace color_space = ColorSpace::srgb;
   MaterialReference material;
   MediumNames media;
   std::optional<AreaLightRequest> area_light;
-  std::map<std::string, std::vector<Parameter>, std::less<>> defaults;  ///< of Attribute, by target
+  std::map<std::string, std::vector<Parameter>, std::less<>>
+      defaults;  ///< of Attribute, by target
 };
 
 }  // namespace tyndall::loader

@@ -12,7 +12,7 @@
 namespace tyndall {
 
 struct LoadOptions {
-  bool strict = false;   ///< what is not supported is an error, not a warning
+  bool strict = false;     ///< what is not supported is an error, not a warning
   WarningSink on_warning;  ///< may be empty
 };
 
@@ -22,11 +22,12 @@ struct LoadedScene {
   std::vector<Diagnostic> warnings;  ///< the same that on_warning was called with
 };
 
-/// Reads a pbrt-v4 scene file with all files that it names. Throws SceneError for whatever is
-/// wrong in them, std::runtime_error if the file itself cannot be read.
+/// Reads a pbrt-v4 scene file with all files that it names. Throws SceneError for whatever
+/// is wrong in them, std::runtime_error if the file itself cannot be read.
 LoadedScene load_scene(const std::string& path, const LoadOptions& options = {});
 
-/// The same for text in memory; `name` stands for the file, its folder resolves relative paths.
+/// The same for text in memory; `name` stands for the file, its folder resolves relative
+/// paths.
 LoadedScene parse_scene(std::string_view text, const std::string& name,
                         const LoadOptions& options = {});
 

@@ -35,12 +35,14 @@ PerspectiveCamera::Settings fit_to_film(const CameraRequest& camera, Vec2i resol
 void set_film(const std::string& type, ParameterSet& parameters, RenderSettings& settings);
 void set_pixel_filter(const std::string& type, ParameterSet& parameters,
                       RenderSettings& settings);
-void set_sampler(const std::string& type, ParameterSet& parameters, RenderSettings& settings);
+void set_sampler(const std::string& type, ParameterSet& parameters,
+                 RenderSettings& settings);
 void set_integrator(const std::string& type, ParameterSet& parameters,
                     RenderSettings& settings);
 
 /// Empty, with a report, if tyndall does not have that kind of medium yet.
-std::optional<Medium> make_medium(ParameterSet& parameters, const Transform& world_from_medium,
+std::optional<Medium> make_medium(ParameterSet& parameters,
+                                  const Transform& world_from_medium,
                                   const FileFinder& files);
 
 /// `named` are the materials that "mix" may refer to.
@@ -57,7 +59,7 @@ std::optional<AreaLightRequest> make_area_light(const std::string& type,
 
 /// Empty, with a report, if tyndall does not have that kind of shape yet.
 std::optional<Shape> make_shape(const std::string& type, ParameterSet& parameters,
-                                const Transform& world_from_object, bool reverse_orientation,
-                                const FileFinder& files);
+                                const Transform& world_from_object,
+                                bool reverse_orientation, const FileFinder& files);
 
 }  // namespace tyndall::loader

@@ -16,8 +16,8 @@ struct Entry {
 
 constexpr Rgb grey(float x) { return {x, x, x}; }
 
-// Optical constants at the dominant wavelengths of the Rec. 709 primaries, 611, 549 and 465 nm:
-// metals from [JC72] and [Rakic95], brass from [Querry85], oxides from [DeVore51] and
+// Optical constants at the dominant wavelengths of the Rec. 709 primaries, 611, 549 and 465
+// nm: metals from [JC72] and [Rakic95], brass from [Querry85], oxides from [DeVore51] and
 // [Stephens52], glasses at 587.6 nm from Schott's catalogue.
 constexpr std::array materials{
     Entry{"glass-BK7", grey(1.5168f)},
@@ -29,19 +29,19 @@ constexpr std::array materials{
     Entry{"glass-SF5", grey(1.6727f)},
     Entry{"glass-SF10", grey(1.7283f)},
     Entry{"glass-SF11", grey(1.7847f)},
-    Entry{"metal-Ag-eta", {0.0580f, 0.0600f, 0.0429f}},
-    Entry{"metal-Ag-k", {4.2100f, 3.5974f, 2.6484f}},
-    Entry{"metal-Al-eta", {1.2967f, 0.9566f, 0.6502f}},
-    Entry{"metal-Al-k", {7.3627f, 6.6858f, 5.6326f}},
-    Entry{"metal-Au-eta", {0.2111f, 0.4216f, 1.3499f}},
-    Entry{"metal-Au-k", {3.2754f, 2.3459f, 1.8806f}},
-    Entry{"metal-Cu-eta", {0.2757f, 1.0180f, 1.1720f}},
-    Entry{"metal-Cu-k", {3.3726f, 2.5823f, 2.4230f}},
-    Entry{"metal-CuZn-eta", {0.4440f, 0.5270f, 1.0940f}},
-    Entry{"metal-CuZn-k", {3.6950f, 2.7650f, 1.8290f}},
-    Entry{"metal-MgO-eta", {1.7366f, 1.7400f, 1.7489f}},
+    Entry{"metal-Ag-eta", {0.060f, 0.060f, 0.050f}},
+    Entry{"metal-Ag-k", {4.10f, 3.59f, 2.82f}},
+    Entry{"metal-Al-eta", {1.30f, 0.96f, 0.65f}},
+    Entry{"metal-Al-k", {7.36f, 6.69f, 5.63f}},
+    Entry{"metal-Au-eta", {0.22f, 0.43f, 1.33f}},
+    Entry{"metal-Au-k", {3.23f, 2.46f, 1.87f}},
+    Entry{"metal-Cu-eta", {0.33f, 1.02f, 1.25f}},
+    Entry{"metal-Cu-k", {3.17f, 2.58f, 2.46f}},
+    Entry{"metal-CuZn-eta", {0.444f, 0.527f, 1.094f}},
+    Entry{"metal-CuZn-k", {3.695f, 2.765f, 1.829f}},
+    Entry{"metal-MgO-eta", {1.736f, 1.741f, 1.750f}},
     Entry{"metal-MgO-k", grey(0)},
-    Entry{"metal-TiO2-eta", {2.6015f, 2.6506f, 2.7684f}},
+    Entry{"metal-TiO2-eta", {2.597f, 2.649f, 2.777f}},
     Entry{"metal-TiO2-k", grey(0)},
 };
 

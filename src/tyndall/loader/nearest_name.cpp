@@ -10,7 +10,9 @@
 namespace tyndall::loader {
 namespace {
 
-char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
+char lower(char c) {
+  return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+}
 
 // Levenshtein distance, upper and lower case alike.
 size_t edit_distance(std::string_view a, std::string_view b) {
@@ -29,7 +31,8 @@ size_t edit_distance(std::string_view a, std::string_view b) {
 
 }  // namespace
 
-std::string did_you_mean(std::string_view name, const std::vector<std::string_view>& names) {
+std::string did_you_mean(std::string_view name,
+                         const std::vector<std::string_view>& names) {
   if (name.size() > 64) return {};
   std::string_view best;
   size_t best_distance = std::max<size_t>(name.size() / 3, 2) + 1;

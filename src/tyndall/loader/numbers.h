@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cmath>
 #include <charconv>
+#include <cmath>
 #include <string_view>
 
 namespace tyndall::loader {
 
 enum class NumberError { none, malformed, too_large };
 
-/// Reads all of `text` as a decimal number. What is too small becomes zero; "inf" and "nan" are
-/// malformed, as in pbrt-v4.
+/// Reads all of `text` as a decimal number. What is too small becomes zero; "inf" and "nan"
+/// are malformed, as in pbrt-v4.
 inline NumberError parse_number(std::string_view text, float& value) {
   const char* begin = text.data();
   const char* const end = begin + text.size();
@@ -24,7 +24,8 @@ inline NumberError parse_number(std::string_view text, float& value) {
   if (first == end || !(('0' <= *first && *first <= '9') || *first == '.'))
     return NumberError::malformed;
   const std::from_chars_result result = std::from_chars(begin, end, value);
-  if (result.ptr != end || result.ec == std::errc::invalid_argument) return NumberError::malformed;
+  if (result.ptr != end || result.ec == std::errc::invalid_argument)
+    return NumberError::malformed;
   if (result.ec == std::errc{}) return NumberError::none;
   double wide = 0;  // out of range for float: huge, or so small that it is zero
   if (std::from_chars(begin, end, wide).ec != std::errc{}) {
@@ -43,7 +44,8 @@ inline NumberError parse_number(std::string_view text, int& value) {
   const char* const end = begin + text.size();
   if (text.size() > 1 && *begin == '+' && begin[1] != '-') ++begin;
   const std::from_chars_result result = std::from_chars(begin, end, value);
-  if (result.ptr != end || result.ec == std::errc::invalid_argument) return NumberError::malformed;
+  if (result.ptr != end || result.ec == std::errc::invalid_argument)
+    return NumberError::malformed;
   return result.ec == std::errc{} ? NumberError::none : NumberError::too_large;
 }
 

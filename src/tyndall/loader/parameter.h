@@ -29,12 +29,12 @@ enum class ParameterType {
 /// As scene files write it.
 std::string_view name_of(ParameterType type);
 
-/// One `"type name" [ values ]` of a directive. Which of the vectors holds the values, the type
-/// says; a spectrum has numbers or strings.
+/// One `"type name" [ values ]` of a directive. Which of the vectors holds the values, the
+/// type says; a spectrum has numbers or strings.
 struct Parameter {
   ParameterType type;
   std::string name;
-  Span where;  ///< declaration and values
+  Span where;                                 ///< declaration and values
   ColorSpace color_space = ColorSpace::srgb;  ///< in force where it stands
   bool is_default = false;                    ///< from an Attribute directive
   mutable bool is_used = false;

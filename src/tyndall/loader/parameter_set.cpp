@@ -30,31 +30,48 @@ std::vector<Vec3> triples(const Parameter* parameter) {
 
 std::string_view name_of(ParameterType type) {
   switch (type) {
-    case ParameterType::boolean: return "bool";
-    case ParameterType::integer: return "integer";
-    case ParameterType::number: return "float";
-    case ParameterType::point2: return "point2";
-    case ParameterType::vector2: return "vector2";
-    case ParameterType::point3: return "point3";
-    case ParameterType::vector3: return "vector3";
-    case ParameterType::normal: return "normal";
-    case ParameterType::rgb: return "rgb";
-    case ParameterType::spectrum: return "spectrum";
-    case ParameterType::blackbody: return "blackbody";
-    case ParameterType::string: return "string";
-    case ParameterType::texture: return "texture";
+    case ParameterType::boolean:
+      return "bool";
+    case ParameterType::integer:
+      return "integer";
+    case ParameterType::number:
+      return "float";
+    case ParameterType::point2:
+      return "point2";
+    case ParameterType::vector2:
+      return "vector2";
+    case ParameterType::point3:
+      return "point3";
+    case ParameterType::vector3:
+      return "vector3";
+    case ParameterType::normal:
+      return "normal";
+    case ParameterType::rgb:
+      return "rgb";
+    case ParameterType::spectrum:
+      return "spectrum";
+    case ParameterType::blackbody:
+      return "blackbody";
+    case ParameterType::string:
+      return "string";
+    case ParameterType::texture:
+      return "texture";
   }
   return "";
 }
 
 std::string Range::text() const {
-  if (min == 0 && max == infinity) return is_open ? "must be positive" : "must not be negative";
-  if (max == infinity) return fmt::format("must be {} {}", is_open ? "above" : "at least", min);
-  return fmt::format("must lie in {}{}, {}{}", is_open ? "(" : "[", min, max, is_open ? ")" : "]");
+  if (min == 0 && max == infinity)
+    return is_open ? "must be positive" : "must not be negative";
+  if (max == infinity)
+    return fmt::format("must be {} {}", is_open ? "above" : "at least", min);
+  return fmt::format("must lie in {}{}, {}{}", is_open ? "(" : "[", min, max,
+                     is_open ? ")" : "]");
 }
 
 ParameterSet::ParameterSet(std::string owner, Span where, Reporter& reporter,
-                           std::vector<Parameter> own, const std::vector<Parameter>* defaults)
+                           std::vector<Parameter> own,
+                           const std::vector<Parameter>* defaults)
     : owner_(std::move(owner)),
       where_(where),
       reporter_(&reporter),
@@ -70,18 +87,25 @@ const Parameter* ParameterSet::look_up(std::string_view name) const {
 
 bool ParameterSet::has(std::string_view name) const { return look_up(name) != nullptr; }
 
+bool ParameterSet::has_texture(std::string_view name) const {
+  const Parameter* parameter = look_up(name);
+  return parameter && parameter->type == ParameterType::texture;
+}
+
 Span ParameterSet::where(std::string_view name) const {
   const Parameter* parameter = look_up(name);
   return parameter ? parameter->where : where_;
 }
 
-Parameter* ParameterSet::find(std::string_view name, std::initializer_list<ParameterType> types) {
+Parameter* ParameterSet::find(std::string_view name,
+                              std::initializer_list<ParameterType> types) {
   asked_.push_back(name);
   auto* parameter = const_cast<Parameter*>(look_up(name));
   if (!parameter) return nullptr;
   // Further ones of the same name are shadowed, as in pbrt-v4.
   for (Parameter& p : parameters_) p.is_used = p.is_used || p.name == name;
-  if (std::find(types.begin(), types.end(), parameter->type) != types.end()) return parameter;
+  if (std::find(types.begin(), types.end(), parameter->type) != types.end())
+    return parameter;
   error(name, "parameter \"{}\" must be of type {}, not \"{}\"", name, alternatives(types),
         name_of(parameter->type));
   return nullptr;
@@ -104,7 +128,8 @@ float ParameterSet::number(std::string_view name, float otherwise, Range range) 
 
 int ParameterSet::integer(std::string_view name, int otherwise, Range range) {
   const Parameter* parameter = find(name, {ParameterType::integer});
-  if (!parameter || !has_one_value(*parameter, parameter->integers.size())) return otherwise;
+  if (!parameter || !has_one_value(*parameter, parameter->integers.size()))
+    return otherwise;
   const int value = parameter->integers[0];
   if (range.contains(static_cast<float>(value))) return value;
   error(name, "parameter \"{}\" {}, got {}", name, range.text(), value);
@@ -113,7 +138,8 @@ int ParameterSet::integer(std::string_view name, int otherwise, Range range) {
 
 bool ParameterSet::boolean(std::string_view name, bool otherwise) {
   const Parameter* parameter = find(name, {ParameterType::boolean});
-  if (!parameter || !has_one_value(*parameter, parameter->booleans.size())) return otherwise;
+  if (!parameter || !has_one_value(*parameter, parameter->booleans.size()))
+    return otherwise;
   return parameter->booleans[0] != 0;
 }
 

@@ -22,21 +22,24 @@ struct Range {
   float min = -infinity, max = infinity;
   bool is_open = false;  ///< neither end belongs to it
 
-  bool contains(float x) const { return is_open ? min < x && x < max : min <= x && x <= max; }
+  bool contains(float x) const {
+    return is_open ? min < x && x < max : min <= x && x <= max;
+  }
   std::string text() const;  ///< "must be positive", "must lie in [0, 1]"
 };
 inline constexpr Range any_number{};
 inline constexpr Range not_negative{0, infinity};
 inline constexpr Range positive{0, infinity, true};
 
-/// The parameters of one directive. Questions mark a parameter as used; what nobody has asked
-/// for in the end is an error. Wrong types, counts and ranges are reported at the parameter, and
-/// the default is returned.
+/// The parameters of one directive. Questions mark a parameter as used; what nobody has
+/// asked for in the end is an error. Wrong types, counts and ranges are reported at the
+/// parameter, and the default is returned.
 class ParameterSet {
  public:
   /// `owner` names the directive in messages: `Camera "perspective"`. `defaults` come from
   /// Attribute directives and may be null.
-  ParameterSet(std::string owner, Span where, Reporter& reporter, std::vector<Parameter> own,
+  ParameterSet(std::string owner, Span where, Reporter& reporter,
+               std::vector<Parameter> own,
                const std::vector<Parameter>* defaults = nullptr);
 
   float number(std::string_view name, float otherwise, Range range = any_number);
@@ -55,6 +58,7 @@ class ParameterSet {
   /// The parameter if it is given with one of the types, null otherwise.
   Parameter* find(std::string_view name, std::initializer_list<ParameterType> types);
   bool has(std::string_view name) const;
+  bool has_texture(std::string_view name) const;
   /// Valid in pbrt-v4 but without influence here.
   void ignore(std::initializer_list<std::string_view> names);
   void ignore_all();
@@ -68,7 +72,8 @@ class ParameterSet {
   Span where(std::string_view name) const;
 
   template <typename... Args>
-  void error(std::string_view name, fmt::format_string<Args...> format, Args&&... args) const {
+  void error(std::string_view name, fmt::format_string<Args...> format,
+             Args&&... args) const {
     reporter_->error(where(name), "{}: {}", owner_,
                      fmt::format(format, std::forward<Args>(args)...));
   }

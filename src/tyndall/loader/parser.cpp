@@ -18,11 +18,16 @@ bool looks_like_directive(const Token& token) {
 
 std::string description(const Token& token) {
   switch (token.kind) {
-    case TokenKind::end: return "the file ends";
-    case TokenKind::open_bracket: return "got \"[\"";
-    case TokenKind::close_bracket: return "got \"]\"";
-    case TokenKind::string: return "got a string";
-    case TokenKind::word: return fmt::format("got \"{}\"", token.text.substr(0, 40));
+    case TokenKind::end:
+      return "the file ends";
+    case TokenKind::open_bracket:
+      return "got \"[\"";
+    case TokenKind::close_bracket:
+      return "got \"]\"";
+    case TokenKind::string:
+      return "got a string";
+    case TokenKind::word:
+      return fmt::format("got \"{}\"", token.text.substr(0, 40));
   }
   return {};
 }
@@ -81,7 +86,8 @@ void Parser::fail_at(const Token& token, std::string_view expected) {
 float Parser::number() {
   const Token token = tokenizer().next();
   float value = 0;
-  if (token.kind != TokenKind::word || parse_number(token.text, value) == NumberError::malformed)
+  if (token.kind != TokenKind::word ||
+      parse_number(token.text, value) == NumberError::malformed)
     fail_at(token, "a number");
   if (parse_number(token.text, value) == NumberError::too_large)
     fail(token.where, "the number {} is too large", token.text.substr(0, 40));
@@ -111,15 +117,18 @@ std::optional<std::string> Parser::optional_string() {
 
 std::string Parser::value() {
   const Token token = tokenizer().next();
-  if (token.kind != TokenKind::word && token.kind != TokenKind::string) fail_at(token, "a value");
+  if (token.kind != TokenKind::word && token.kind != TokenKind::string)
+    fail_at(token, "a value");
   return token.kind == TokenKind::string ? unescape(token) : std::string(token.text);
 }
 
 void Parser::include(const std::string& name, Span where, bool is_import) {
   const int depth = sources_[where.source].depth + 1;
   if (depth > max_depth)
-    fail(where, "files include each other more than {} deep; does one include itself?", max_depth);
-  if (sources_.size() >= max_files) fail(where, "more than {} files are included", max_files);
+    fail(where, "files include each other more than {} deep; does one include itself?",
+         max_depth);
+  if (sources_.size() >= max_files)
+    fail(where, "more than {} files are included", max_files);
   const std::string path = files_.find(name, where);
   const uint32_t source = sources_.add({path, text_of(path, where), where, depth});
   if (is_import) builder_.begin_import();

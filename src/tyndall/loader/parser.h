@@ -20,18 +20,19 @@ namespace tyndall::loader {
 
 class SceneBuilder;
 
-/// Reads the directives of a scene file and of the files that it includes, and calls the scene
-/// builder for each. After an error it goes on with the next directive.
+/// Reads the directives of a scene file and of the files that it includes, and calls the
+/// scene builder for each. After an error it goes on with the next directive.
 class Parser {
  public:
-  static constexpr int max_depth = 64;             ///< of inclusion
+  static constexpr int max_depth = 64;                  ///< of inclusion
   static constexpr size_t max_files = size_t{1} << 20;  ///< inclusions in all
 
   Parser(SourceLibrary& sources, const FileFinder& files, Reporter& reporter,
          SceneBuilder& builder)
       : sources_(sources), files_(files), reporter_(reporter), builder_(builder) {}
 
-  /// Reads the source and all that it includes. Throws SceneError if there are too many errors.
+  /// Reads the source and all that it includes. Throws SceneError if there are too many
+  /// errors.
   void run(uint32_t source);
 
   /// Whether the directive of that name was met, in whatever state.

@@ -49,12 +49,15 @@ ParameterType type_by_name(std::string_view name, Span where) {
 size_t group_size(ParameterType type) {
   switch (type) {
     case ParameterType::point2:
-    case ParameterType::vector2: return 2;
+    case ParameterType::vector2:
+      return 2;
     case ParameterType::point3:
     case ParameterType::vector3:
     case ParameterType::normal:
-    case ParameterType::rgb: return 3;
-    default: return 1;
+    case ParameterType::rgb:
+      return 3;
+    default:
+      return 1;
   }
 }
 
@@ -117,7 +120,8 @@ void Parser::read_values(Parameter& parameter) {
 }
 
 template <typename T>
-void Parser::add_number(std::vector<T>& numbers, const Parameter& parameter, const Token& token) {
+void Parser::add_number(std::vector<T>& numbers, const Parameter& parameter,
+                        const Token& token) {
   T value{};
   const NumberError error = token.kind == TokenKind::word ? parse_number(token.text, value)
                                                           : NumberError::malformed;
@@ -132,7 +136,8 @@ void Parser::add_number(std::vector<T>& numbers, const Parameter& parameter, con
 
 void Parser::add_value(Parameter& parameter, const Token& token) {
   switch (parameter.type) {
-    case ParameterType::integer: return add_number(parameter.integers, parameter, token);
+    case ParameterType::integer:
+      return add_number(parameter.integers, parameter, token);
     case ParameterType::string:
     case ParameterType::texture:
       if (token.kind != TokenKind::string)
@@ -151,7 +156,8 @@ void Parser::add_value(Parameter& parameter, const Token& token) {
         return;
       }
       [[fallthrough]];
-    default: return add_number(parameter.numbers, parameter, token);
+    default:
+      return add_number(parameter.numbers, parameter, token);
   }
 }
 

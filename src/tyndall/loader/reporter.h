@@ -14,7 +14,8 @@
 
 namespace tyndall::loader {
 
-/// What is wrong with one directive; the parser reports it and goes on with the next directive.
+/// What is wrong with one directive; the parser reports it and goes on with the next
+/// directive.
 struct Failure {
   Span where;
   std::string message;

@@ -10,7 +10,8 @@ namespace tyndall::loader {
 namespace {
 
 template <typename Value>
-std::vector<std::string_view> names_of(const std::map<std::string, Value, std::less<>>& entries) {
+std::vector<std::string_view> names_of(
+    const std::map<std::string, Value, std::less<>>& entries) {
   std::vector<std::string_view> names;
   for (const auto& [name, value] : entries) names.push_back(name);
   return names;
@@ -53,7 +54,8 @@ ParameterSet SceneBuilder::parameter_set(const Token& directive, const std::stri
                                          std::vector<Parameter> parameters) {
   const auto defaults = state_.defaults.find(attribute_target(directive.text));
   return {fmt::format("{} \"{}\"", directive.text, name), directive.where, reporter_,
-          std::move(parameters), defaults == state_.defaults.end() ? nullptr : &defaults->second};
+          std::move(parameters),
+          defaults == state_.defaults.end() ? nullptr : &defaults->second};
 }
 
 void SceneBuilder::check_transform(const Transform& transform) const {
@@ -89,10 +91,12 @@ void SceneBuilder::coordinate_system_transform(const std::string& name) {
 
 void SceneBuilder::active_transform(const std::string& which) {
   if (which != "StartTime" && which != "EndTime" && which != "All")
-    fail(directive_, "ActiveTransform must be StartTime, EndTime or All, got \"{}\"", which);
+    fail(directive_, "ActiveTransform must be StartTime, EndTime or All, got \"{}\"",
+         which);
   if (which == "EndTime")
     reporter_.unsupported(
-        directive_, "ActiveTransform: motion is not supported yet; everything stands still");
+        directive_,
+        "ActiveTransform: motion is not supported yet; everything stands still");
   state_.moves_start = which != "EndTime";
 }
 
@@ -147,9 +151,11 @@ void SceneBuilder::object_end() {
 }
 
 void SceneBuilder::attribute(const std::string& target, std::vector<Parameter> parameters) {
-  const std::vector<std::string_view> targets(attribute_targets.begin(), attribute_targets.end());
+  const std::vector<std::string_view> targets(attribute_targets.begin(),
+                                              attribute_targets.end());
   if (std::find(targets.begin(), targets.end(), target) == targets.end())
-    fail(directive_, "Attribute must be for one of {}, got \"{}\"", quoted_list(targets), target);
+    fail(directive_, "Attribute must be for one of {}, got \"{}\"", quoted_list(targets),
+         target);
   std::vector<Parameter>& defaults = state_.defaults[target];
   for (Parameter& parameter : parameters) {
     parameter.is_default = true;
@@ -161,7 +167,8 @@ void SceneBuilder::set_color_space(const std::string& name) {
   const auto space = color_space_by_name(name);
   if (!space)
     fail(directive_,
-         "there is no color space \"{}\"; there are \"srgb\", \"rec2020\", \"aces2065-1\" and "
+         "there is no color space \"{}\"; there are \"srgb\", \"rec2020\", \"aces2065-1\" "
+         "and "
          "\"dci-p3\"",
          name);
   state_.color_space = *space;

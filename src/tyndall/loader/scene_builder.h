@@ -20,8 +20,8 @@
 
 namespace tyndall::loader {
 
-/// Carries out the directives of a scene file: one method for each. Methods throw Failure if the
-/// directive cannot be carried out; the state is then as if it had not been there.
+/// Carries out the directives of a scene file: one method for each. Methods throw Failure
+/// if the directive cannot be carried out; the state is then as if it had not been there.
 class SceneBuilder {
  public:
   SceneBuilder(const FileFinder& files, Reporter& reporter)
@@ -29,8 +29,8 @@ class SceneBuilder {
 
   /// Called before each directive. Throws Failure if it may not stand here.
   void enter(Phase phase, const Token& directive);
-  /// The scene, once all is read. Names that were used before their definition are looked up
-  /// here. `end` is where the scene file ends.
+  /// The scene, once all is read. Names that were used before their definition are looked
+  /// up here. `end` is where the scene file ends.
   LoadedScene finish(Span end);
 
   ColorSpace color_space() const { return state_.color_space; }
@@ -133,7 +133,8 @@ class SceneBuilder {
   Span world_begin_;
 
   std::vector<Medium> media_;
-  std::map<std::string, int, std::less<>> media_by_name_;  // no_medium if it is not supported
+  std::map<std::string, int, std::less<>>
+      media_by_name_;  // no_medium if it is not supported
   std::map<std::string, Material, std::less<>> materials_;
   TextureTable textures_;
   std::vector<PendingSurface> surfaces_;

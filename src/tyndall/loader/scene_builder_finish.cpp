@@ -9,7 +9,8 @@ namespace tyndall::loader {
 namespace {
 
 template <typename Value>
-std::vector<std::string_view> names_of(const std::map<std::string, Value, std::less<>>& entries) {
+std::vector<std::string_view> names_of(
+    const std::map<std::string, Value, std::less<>>& entries) {
   std::vector<std::string_view> names;
   for (const auto& [name, value] : entries) names.push_back(name);
   return names;
@@ -84,7 +85,8 @@ void SceneBuilder::check_lights(const SceneDescription& scene, Span end) {
                   [](const Surface& s) { return s.emission.has_value(); }) ||
       std::any_of(scene.media.begin(), scene.media.end(),
                   [](const Medium& m) { return m.is_emissive(); });
-  if (!has_light) reporter_.error(end, "the scene has no lights: the picture would be black");
+  if (!has_light)
+    reporter_.error(end, "the scene has no lights: the picture would be black");
 }
 
 LoadedScene SceneBuilder::finish(Span end) {

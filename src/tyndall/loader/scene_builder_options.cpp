@@ -11,7 +11,8 @@
 namespace tyndall::loader {
 namespace {
 
-// pbrt-v4 takes "disable-pixel-jitter", "disable_pixel_jitter" and "disablePixelJitter" alike.
+// pbrt-v4 takes "disable-pixel-jitter", "disable_pixel_jitter" and "disablePixelJitter"
+// alike.
 std::string normalized(std::string_view name) {
   std::string result;
   for (const char c : name)
@@ -20,10 +21,17 @@ std::string normalized(std::string_view name) {
   return result;
 }
 
-const std::vector<std::string_view> option_names{
-    "disablepixeljitter", "disabletexturefiltering", "disablewavelengthjitter",
-    "displacementedgescale", "msereferenceimage", "msereferenceout", "rendercoordsys", "seed",
-    "forcediffuse", "pixelstats", "wavefront"};
+const std::vector<std::string_view> option_names{"disablepixeljitter",
+                                                 "disabletexturefiltering",
+                                                 "disablewavelengthjitter",
+                                                 "displacementedgescale",
+                                                 "msereferenceimage",
+                                                 "msereferenceout",
+                                                 "rendercoordsys",
+                                                 "seed",
+                                                 "forcediffuse",
+                                                 "pixelstats",
+                                                 "wavefront"};
 
 }  // namespace
 
@@ -57,7 +65,8 @@ void SceneBuilder::integrator(const std::string& type, ParameterSet parameters) 
 void SceneBuilder::accelerator(const std::string& type, ParameterSet parameters) {
   // Embree does it in any case; the choice cannot change the picture.
   if (type != "bvh" && type != "kdtree")
-    fail(directive_, "there is no accelerator \"{}\"; there are \"bvh\" and \"kdtree\"", type);
+    fail(directive_, "there is no accelerator \"{}\"; there are \"bvh\" and \"kdtree\"",
+         type);
   parameters.ignore_all();
 }
 

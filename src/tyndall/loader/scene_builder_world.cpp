@@ -37,7 +37,8 @@ void SceneBuilder::named_material(const std::string& name) {
 }
 
 void SceneBuilder::material(const std::string& type, ParameterSet parameters) {
-  state_.material = {make_material(type, parameters, textures_, materials_), "", directive_};
+  state_.material = {make_material(type, parameters, textures_, materials_), "",
+                     directive_};
   parameters.report_unknown();
 }
 
@@ -70,10 +71,11 @@ bool SceneBuilder::is_invisible(ParameterSet& parameters) const {
   }
   const float value = parameters.number("alpha", 1, {0, 1});
   if (value != 0 && value != 1)
-    parameters.unsupported("alpha", "alpha between 0 and 1 is not supported yet; the shape is opaque");
+    parameters.unsupported(
+        "alpha", "alpha between 0 and 1 is not supported yet; the shape is opaque");
   if (value == 0 && state_.area_light)
-    parameters.unsupported("alpha",
-                           "a light that cannot be seen is not supported yet; the shape is opaque");
+    parameters.unsupported(
+        "alpha", "a light that cannot be seen is not supported yet; the shape is opaque");
   return value == 0 && !state_.area_light;
 }
 
@@ -89,7 +91,8 @@ void SceneBuilder::shape(const std::string& type, ParameterSet parameters) {
   if (shape && !is_hidden) add_surface(type, std::move(*shape), parameters);
 }
 
-void SceneBuilder::add_surface(const std::string& type, Shape shape, ParameterSet& parameters) {
+void SceneBuilder::add_surface(const std::string& type, Shape shape,
+                               ParameterSet& parameters) {
   const SourceLocation at = reporter_.sources().locate(directive_);
   const std::string name = fmt::format("{} at {}:{}:{}", type, at.file, at.line, at.column);
   if (state_.area_light && is_in_object_)
@@ -98,8 +101,9 @@ void SceneBuilder::add_surface(const std::string& type, Shape shape, ParameterSe
         parameters.owner());
   for (auto& [part, emission] :
        with_emission(std::move(shape), is_in_object_ ? std::nullopt : state_.area_light)) {
-    target_surfaces().push_back(
-        {{std::move(part), DiffuseBsdf{}, {}, emission, name}, state_.material, state_.media});
+    target_surfaces().push_back({{std::move(part), DiffuseBsdf{}, {}, emission, name},
+                                 state_.material,
+                                 state_.media});
   }
 }
 

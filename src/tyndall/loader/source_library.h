@@ -30,10 +30,12 @@ struct SourceText {
   int depth = 0;                    ///< of inclusion; the scene file itself is 0
 };
 
-/// All texts of a scene. Turns byte offsets into lines and columns when a message needs them.
+/// All texts of a scene. Turns byte offsets into lines and columns when a message needs
+/// them.
 class SourceLibrary {
  public:
-  /// Returns the new source's number, for Span::source. Precondition: less than 4 GiB of text.
+  /// Returns the new source's number, for Span::source. Precondition: less than 4 GiB of
+  /// text.
   uint32_t add(SourceText source);
   const SourceText& operator[](uint32_t source) const { return sources_[source].source; }
   size_t size() const { return sources_.size(); }

@@ -80,7 +80,7 @@ float PiecewiseLinearSpectrum::operator()(float wavelength) const {
 }
 
 SpectrumFunction blackbody(float temperature) {
-  constexpr double c2 = 1.438776877e7;      // h c / k [nm K]
+  constexpr double c2 = 1.438776877e7;     // h c / k [nm K]
   constexpr double peak = 4.965114231744;  // of c2 / (wavelength * temperature), Wien's law
   const double at_peak = std::pow(peak, 5) / std::expm1(peak);
   return [=](float wavelength) {

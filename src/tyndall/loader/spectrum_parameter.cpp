@@ -12,7 +12,8 @@ namespace tyndall::loader {
 namespace {
 
 Rgb to_rgb(const SpectrumFunction& spectrum, SpectrumUse use) {
-  return use == SpectrumUse::illuminant ? rgb_of_light(spectrum) : rgb_under_daylight(spectrum);
+  return use == SpectrumUse::illuminant ? rgb_of_light(spectrum)
+                                        : rgb_under_daylight(spectrum);
 }
 
 // Wavelengths and values in turn.
@@ -26,7 +27,8 @@ Rgb from_pairs(const Parameter& p, const std::vector<float>& pairs, SpectrumUse 
       fail(p.where, "wavelengths of a spectrum must ascend, got {} after {}", pairs[i],
            pairs[i - 2]);
     if (pairs[i + 1] < 0)
-      fail(p.where, "a spectrum must not be negative, got {} at {} nm", pairs[i + 1], pairs[i]);
+      fail(p.where, "a spectrum must not be negative, got {} at {} nm", pairs[i + 1],
+           pairs[i]);
     spectrum.wavelengths.push_back(pairs[i]);
     spectrum.values.push_back(pairs[i + 1]);
   }
@@ -54,7 +56,8 @@ std::vector<float> numbers_of_file(const Parameter& p, const std::string& path) 
     const size_t end = std::min(text.find_first_of(blanks, at), text.size());
     const std::string_view word = std::string_view(text).substr(at, end - at);
     if (parse_number(word, numbers.emplace_back()) != NumberError::none)
-      fail(p.where, "\"{}\" holds \"{}\" where a number is expected", path, word.substr(0, 40));
+      fail(p.where, "\"{}\" holds \"{}\" where a number is expected", path,
+           word.substr(0, 40));
     at = end;
   }
   return numbers;
@@ -88,7 +91,8 @@ Rgb from_blackbody(const Parameter& p, SpectrumUse use) {
 }
 
 Rgb from_number(const Parameter& p) {
-  if (p.numbers[0] < 0) fail(p.where, "\"{}\" must not be negative, got {}", p.name, p.numbers[0]);
+  if (p.numbers[0] < 0)
+    fail(p.where, "\"{}\" must not be negative, got {}", p.name, p.numbers[0]);
   return Rgb(p.numbers[0]);
 }
 
@@ -104,10 +108,14 @@ void check_count(const Parameter& p) {
 Rgb value_of(const Parameter& p, SpectrumUse use, const FileFinder& files) {
   check_count(p);
   switch (p.type) {
-    case ParameterType::rgb: return from_rgb(p, use);
-    case ParameterType::blackbody: return from_blackbody(p, use);
-    case ParameterType::number: return from_number(p);
-    default: return p.strings.empty() ? from_pairs(p, p.numbers, use) : from_name(p, use, files);
+    case ParameterType::rgb:
+      return from_rgb(p, use);
+    case ParameterType::blackbody:
+      return from_blackbody(p, use);
+    case ParameterType::number:
+      return from_number(p);
+    default:
+      return p.strings.empty() ? from_pairs(p, p.numbers, use) : from_name(p, use, files);
   }
 }
 
@@ -125,7 +133,8 @@ std::optional<Rgb> spectrum_parameter(ParameterSet& parameters, std::string_view
       for (int i = 0; i < 3; ++i) value[i] = std::min(value[i], 1.0f);
     return value;
   } catch (const Failure& failure) {
-    parameters.reporter().error(failure.where, "{}: {}", parameters.owner(), failure.message);
+    parameters.reporter().error(failure.where, "{}: {}", parameters.owner(),
+                                failure.message);
     return std::nullopt;
   }
 }

@@ -30,7 +30,8 @@ class TextureTable {
                Range range = any_number) const;
 
  private:
-  std::optional<Rgb> value(ParameterSet& parameters, std::string_view name, bool is_float) const;
+  std::optional<Rgb> value(ParameterSet& parameters, std::string_view name,
+                           bool is_float) const;
   std::optional<Rgb> operand(ParameterSet& parameters, std::string_view name,
                              bool is_float) const;
   Rgb mean(const std::string& type, ParameterSet& parameters, bool is_float);

@@ -24,22 +24,32 @@ CharClass class_of(char c) { return char_classes[static_cast<unsigned char>(c)];
 // Zero if there is no such escape.
 char escaped(char c) {
   switch (c) {
-    case 'b': return '\b';
-    case 'f': return '\f';
-    case 'n': return '\n';
-    case 'r': return '\r';
-    case 't': return '\t';
-    case '\\': return '\\';
-    case '\'': return '\'';
-    case '"': return '"';
-    default: return 0;
+    case 'b':
+      return '\b';
+    case 'f':
+      return '\f';
+    case 'n':
+      return '\n';
+    case 'r':
+      return '\r';
+    case 't':
+      return '\t';
+    case '\\':
+      return '\\';
+    case '\'':
+      return '\'';
+    case '"':
+      return '"';
+    default:
+      return 0;
   }
 }
 
 }  // namespace
 
 Token Tokenizer::make(TokenKind kind, size_t begin, size_t end) const {
-  return {kind, text_.substr(begin, end - begin),
+  return {kind,
+          text_.substr(begin, end - begin),
           {source_, static_cast<uint32_t>(begin), static_cast<uint32_t>(end)}};
 }
 
@@ -78,10 +88,16 @@ Token Tokenizer::next() {
   skip_blanks();
   if (at_ >= text_.size()) return make(TokenKind::end, text_.size(), text_.size());
   switch (text_[at_]) {
-    case '"': return string();
-    case '[': ++at_; return make(TokenKind::open_bracket, at_ - 1, at_);
-    case ']': ++at_; return make(TokenKind::close_bracket, at_ - 1, at_);
-    default: return word();
+    case '"':
+      return string();
+    case '[':
+      ++at_;
+      return make(TokenKind::open_bracket, at_ - 1, at_);
+    case ']':
+      ++at_;
+      return make(TokenKind::close_bracket, at_ - 1, at_);
+    default:
+      return word();
   }
 }
 

@@ -17,8 +17,8 @@ struct Token {
   Span where;  ///< quotes included
 };
 
-/// Cuts a scene file's text into tokens, as pbrt-v4 does: white space, double quotes and square
-/// brackets separate, # at the start of a token begins a comment.
+/// Cuts a scene file's text into tokens, as pbrt-v4 does: white space, double quotes and
+/// square brackets separate, # at the start of a token begins a comment.
 class Tokenizer {
  public:
   /// `text` must outlive the tokenizer and its tokens.
