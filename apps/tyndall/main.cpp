@@ -7,5 +7,7 @@ int main(int argc, char** argv) {
   Program program("tyndall", "A path tracer for light in fog, smoke and clouds.",
                   version_text());
   add_render_command(program);
+  add_compare_command(program);
+  add_convert_command(program);
   return static_cast<int>(program.run(argc, argv));
 }
