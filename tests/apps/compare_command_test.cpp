@@ -30,7 +30,8 @@ TEST_F(CompareCommandTest, PrintsATable) {
 TEST_F(CompareCommandTest, PrintsJson) {
   const std::string a = write("a.exr", 1.5f), b = write("b.exr", 1);
   const std::string reference = write("r.exr", 1);
-  EXPECT_EQ(run({"compare", a, b, "--reference", reference, "--json"}), ExitCode::done);
+  EXPECT_EQ(run({"compare", a, b, "--reference", reference, "--json", "--exposure", "-4"}),
+            ExitCode::done);
   const nlohmann::json object = nlohmann::json::parse(out);
   EXPECT_EQ(object["reference"], reference);
   EXPECT_EQ(object["epsilon"], 0.01);

@@ -41,6 +41,9 @@ def main():
     print("ldr_flip", mean, ldr[20, 30, 0], ldr[0, 0, 0], ldr[39, 47, 0])
     hdr, mean, parameters = flip_evaluator.evaluate(reference, image, "HDR", applyMagma=False)
     print("hdr_flip", mean, hdr[20, 30, 0], hdr[0, 0, 0], hdr[39, 47, 0], parameters)
+    reference[20, 10], image[20, 10] = 3e4, 2e4
+    hdr, mean, parameters = flip_evaluator.evaluate(reference, image, "HDR", applyMagma=False)
+    print("hdr_flip with a sun", mean, hdr[20, 12, 0], parameters)
 
 
 if __name__ == "__main__":

@@ -97,6 +97,18 @@ TEST(FlipTest, PixelsMatchTheAuthorsImplementation) {
   EXPECT_EQ(range.count, 3);
 }
 
+TEST(FlipTest, AgreesOverSixteenStops) {
+  auto [image, reference] = formula_images();
+  reference.set_rgb(10, 20, Rgb(3e4f));
+  image.set_rgb(10, 20, Rgb(2e4f));
+  const ExposureRange range = hdr_flip_exposures(reference);
+  EXPECT_NEAR(range.start, -13.78937816619873, 1e-5);
+  EXPECT_NEAR(range.stop, 2.1923270225524902, 1e-5);
+  EXPECT_EQ(range.count, 16);
+  EXPECT_NEAR(*measure_errors(image, reference).hdr_flip, 0.05008240044116974, 1e-5);
+  EXPECT_NEAR(hdr_flip(image, reference)[20 * 48 + 12], 0.068269484f, 1e-5f);
+}
+
 TEST(FlipTest, EndsOfTheScale) {
   const Image green = constant(40, 40, {0, 1, 0}), blue = constant(40, 40, {0, 0, 1});
   for (float value : ldr_flip(green, green)) EXPECT_EQ(value, 0);

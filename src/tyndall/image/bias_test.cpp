@@ -66,7 +66,9 @@ class Comparison {
         !is_finite(r_variance)) {
       return;
     }
-    for (int c = 0; c < 3; ++c) sums.difference += (double{x[c]} - double{r[c]}) / 3;
+    double difference = 0;
+    for (int c = 0; c < 3; ++c) difference += double{x[c]} - double{r[c]};
+    sums.difference += difference / 3;
     sums.variance +=
         variance_of_channel_mean(x_variance) + variance_of_channel_mean(r_variance);
     ++sums.pixels;

@@ -24,8 +24,6 @@ struct Plane {
   int width, height;
   std::vector<float> values;
 
-  float& at(int x, int y) { return values[index(x, y)]; }
-  float at(int x, int y) const { return values[index(x, y)]; }
   size_t index(int x, int y) const {
     return static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x);
   }
@@ -101,26 +99,47 @@ Kernel make_kernel(int radius, F f) {
   return kernel;
 }
 
-/// Convolves rows or columns; the border pixel continues outside.
-Plane convolve(const Plane& in, const Kernel& kernel, bool along_x) {
+/// to[x] += weight * from[x], written so that compilers vectorize it.
+void add_scaled(float* to, const float* from, float weight, size_t n) {
+  for (size_t x = 0; x < n; ++x) to[x] += weight * from[x];
+}
+
+/// The border pixel continues outside.
+Plane convolve_columns(const Plane& in, const Kernel& kernel) {
   const int radius = static_cast<int>(kernel.size() / 2);
   Plane out{in.width, in.height, std::vector<float>(in.values.size())};
   for (int y = 0; y < in.height; ++y) {
-    for (int x = 0; x < in.width; ++x) {
-      double sum = 0;
-      for (int i = -radius; i <= radius; ++i) {
-        const int sx = along_x ? std::clamp(x + i, 0, in.width - 1) : x;
-        const int sy = along_x ? y : std::clamp(y + i, 0, in.height - 1);
-        sum += kernel[static_cast<size_t>(i + radius)] * double{in.at(sx, sy)};
-      }
-      out.at(x, y) = static_cast<float>(sum);
+    for (int i = -radius; i <= radius; ++i) {
+      const float* from = &in.values[in.index(0, std::clamp(y + i, 0, in.height - 1))];
+      add_scaled(&out.values[out.index(0, y)], from,
+                 static_cast<float>(kernel[static_cast<size_t>(i + radius)]),
+                 static_cast<size_t>(in.width));
+    }
+  }
+  return out;
+}
+
+/// The border pixel continues outside.
+Plane convolve_rows(const Plane& in, const Kernel& kernel) {
+  const auto radius = static_cast<std::ptrdiff_t>(kernel.size() / 2);
+  const auto width = static_cast<size_t>(in.width);
+  Plane out{in.width, in.height, std::vector<float>(in.values.size())};
+  std::vector<float> padded(width + kernel.size());
+  for (int y = 0; y < in.height; ++y) {
+    const float* row = &in.values[in.index(0, y)];
+    std::fill_n(padded.begin(), radius, row[0]);
+    std::copy_n(row, width, padded.begin() + radius);
+    std::fill(padded.begin() + radius + in.width, padded.end(), row[width - 1]);
+    for (size_t i = 0; i < kernel.size(); ++i) {
+      add_scaled(&out.values[out.index(0, y)], &padded[i], static_cast<float>(kernel[i]),
+                 width);
     }
   }
   return out;
 }
 
 Plane convolve(const Plane& in, const Kernel& x, const Kernel& y) {
-  return convolve(convolve(in, x, true), y, false);
+  return convolve_columns(convolve_rows(in, x), y);
 }
 
 double total(const Kernel& kernel) {
@@ -316,13 +335,13 @@ ExposureRange hdr_flip_exposures(const Image& reference) {
   std::sort(luminances.begin(), luminances.end());
   const double median =
       double{luminances[luminances.size() / 2]};  // the upper one, as published
-  // The published definition needs a median above zero; for black pictures take a
-  // thousandth of the maximum.
   const double maximum = double{luminances.back()};
   if (maximum <= 0) return {};
+  // The published definition needs a median above zero; pictures that are mostly black get
+  // 23 stops.
   const double level = luminance_at_85_percent();
   ExposureRange range{std::log2(level / maximum),
-                      std::log2(level / std::max(median, 1e-3 * maximum)), 2};
+                      std::log2(level / std::max(median, 1e-7 * maximum)), 2};
   range.count = std::max(2, static_cast<int>(std::ceil(range.stop - range.start)));
   return range;
 }
