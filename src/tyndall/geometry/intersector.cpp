@@ -54,20 +54,26 @@ struct Geometry {
   float safe_volume = 0;
 };
 
+struct InstanceTable {
+  std::vector<InstanceMaps> maps;  // in the order of their geometry indices
+  uint32_t first = 0;              // geometry index of the first
+};
+
 // A ray on its way through Embree. The first member is all that Embree knows of it.
 struct RayContext {
   RTCIntersectContext embree;
-  PreciseRay world_ray;
-  std::span<const InstanceMaps> instances;  // in the order of their geometry indices
-  uint32_t first_instance;                  // geometry index of the first
+  const Ray* world_ray;
+  const InstanceTable* instances;
 
   const InstanceMaps* instance(uint32_t id) const {
-    return id == RTC_INVALID_GEOMETRY_ID ? nullptr : &instances[id - first_instance];
+    return id == RTC_INVALID_GEOMETRY_ID ? nullptr
+                                         : &instances->maps[id - instances->first];
   }
   PreciseRay ray_in(const InstanceMaps* instance) const {
-    if (!instance) return world_ray;
-    return {.o = instance->group_from_world.point(world_ray.o),
-            .d = instance->group_from_world.vector(world_ray.d)};
+    const Vec3d o(world_ray->o), d(world_ray->d);
+    if (!instance) return {.o = o, .d = d};
+    return {.o = instance->group_from_world.point(o),
+            .d = instance->group_from_world.vector(d)};
   }
   // The ray where the callback is: in an instance or in the world.
   static PreciseRay current_ray(const RTCIntersectContext* embree) {
@@ -78,20 +84,18 @@ struct RayContext {
 static_assert(std::is_standard_layout_v<RTCIntersectContext>);
 
 // Distance to the plane of a triangle, exact to double precision.
-double plane_distance(const TriangleMesh& mesh, uint32_t primitive, const PreciseRay& ray) {
-  const Vec3d p0 = mesh.position(primitive, {0, 0});
-  const Vec3d n =
-      cross(mesh.position(primitive, {1, 0}) - p0, mesh.position(primitive, {0, 1}) - p0);
-  return dot(p0 - ray.o, n) / dot(ray.d, n);
+double plane_distance(const PreciseTriangle& triangle, const PreciseRay& ray) {
+  const Vec3d n = triangle.normal();
+  return dot(triangle.p0 - ray.o, n) / dot(ray.d, n);
 }
 
 // Three roundings of numbers as large as the longest edge, with a margin of four.
 float safe_volume(const TriangleMesh& mesh) {
   double longest2 = 0;
   for (uint32_t i = 0; i < mesh.triangles().size(); ++i) {
-    const Vec3d p0 = mesh.position(i, {0, 0}), p1 = mesh.position(i, {1, 0}),
-                p2 = mesh.position(i, {0, 1});
-    for (const Vec3d edge : {p1 - p0, p2 - p1, p0 - p2})
+    const PreciseTriangle triangle = mesh.triangle(i);
+    for (const Vec3d edge :
+         {triangle.edge1, triangle.edge2, triangle.edge2 - triangle.edge1})
       if (dot(edge, edge) > longest2) longest2 = dot(edge, edge);
   }
   return static_cast<float>(32 * 0x1p-23 * longest2 * std::sqrt(longest2));
@@ -120,7 +124,8 @@ void drop_hit_behind(const RTCFilterFunctionNArguments* args) {
       args->context->instID[0] == RTC_INVALID_GEOMETRY_ID)
     return;
   const PreciseRay current = RayContext::current_ray(args->context);
-  if (!(plane_distance(*geometry.mesh, hit.primID, current) > 0)) args->valid[0] = 0;
+  if (!(plane_distance(geometry.mesh->triangle(hit.primID), current) > 0))
+    args->valid[0] = 0;
 }
 
 Bounds3 primitive_bounds(const Geometry& geometry, uint32_t primitive) {
@@ -223,13 +228,20 @@ Vec2 clamp_to_triangle(Vec2 b) {
   return sum > 1 ? b * (1 / sum) : b;
 }
 
+// Takes a hit at the point `p` from the space of an instance's group to the world.
+void move_to_world(const InstanceMaps& instance, Vec3d p, SceneHit& hit) {
+  const Affine& world = instance.world_from_group;
+  const Vec3 ns = to_float(normalize_or_z(world.normal(Vec3d(hit.point.ns))));
+  hit.group = instance.group;
+  hit.point.p = to_float(world.point(p));
+  hit.point.ng = to_float(normalize_or_z(world.normal(Vec3d(hit.point.ng))));
+  hit.point.ns = dot(ns, hit.point.ng) < 0 ? -ns : ns;
+}
+
 // Embree takes coordinates up to 1.8e18.
 bool can_hit(const Ray& ray, float t_max) {
-  constexpr float limit = 1e18f;
-  const auto is_inside = [](Vec3 a) {
-    return magnitude(a.x) < limit && magnitude(a.y) < limit && magnitude(a.z) < limit;
-  };
-  return is_inside(ray.o) && is_inside(ray.d) && length_squared(ray.d) > 0 && t_max > 0;
+  const float o2 = length_squared(ray.o), d2 = length_squared(ray.d);
+  return o2 < 1e36f && d2 < 1e36f && d2 > 0 && t_max > 0;
 }
 
 RTCRay to_embree(const Ray& ray, float t_max, RayMask mask) {
@@ -332,12 +344,12 @@ class Intersector::Impl {
   }
 
   void add_instances(std::span<const Group> groups, std::span<const Instance> instances) {
-    first_instance_ = static_cast<uint32_t>(geometries_[0].size());
+    instances_.first = static_cast<uint32_t>(geometries_[0].size());
     for (size_t i = 0; i < instances.size(); ++i) {
       const auto& [group, world_from_group] = instances[i];
       assert(0 < group && group < groups.size());
       const Affine world(world_from_group);
-      instances_.push_back({group, world, world.inverse()});
+      instances_.maps.push_back({group, world, world.inverse()});
       uint32_t mask = 0;
       for (const Member& member : groups[group]) mask |= mask_of(member);
       const Handle<RTCGeometry> handle(
@@ -348,60 +360,68 @@ class Intersector::Impl {
       rtcSetGeometryMask(handle.get(), mask);
       rtcCommitGeometry(handle.get());
       rtcAttachGeometryByID(scenes_[0].get(), handle.get(),
-                            first_instance_ + static_cast<uint32_t>(i));
+                            instances_.first + static_cast<uint32_t>(i));
     }
   }
 
   RayContext new_context(const Ray& ray) const {
     RayContext context;
     rtcInitIntersectContext(&context.embree);
-    context.world_ray = {.o = Vec3d(ray.o), .d = Vec3d(ray.d)};
-    context.instances = instances_;
-    context.first_instance = first_instance_;
+    context.world_ray = &ray;
+    context.instances = &instances_;
     return context;
   }
 
-  // Empty if the ray does not start in front of the triangle that Embree found.
-  std::optional<SceneHit> reconstruct(const RayContext& context, const RTCRayHit& query,
-                                      float t_max) const {
+  const Geometry& geometry_of(const InstanceMaps* instance, const RTCHit& hit) const {
+    return geometries_[instance ? instance->group : 0][hit.geomID];
+  }
+
+  // Whether the ray starts in front of the triangle that Embree found.
+  bool starts_in_front(const RayContext& context, const RTCHit& hit) const {
+    const InstanceMaps* instance = context.instance(hit.instID[0]);
+    const Geometry& geometry = geometry_of(instance, hit);
+    return !geometry.mesh || plane_distance(geometry.mesh->triangle(hit.primID),
+                                            context.ray_in(instance)) > 0;
+  }
+
+  SceneHit reconstruct(const RayContext& context, const RTCRayHit& query,
+                       float t_max) const {
+    const RTCHit& hit = query.hit;
+    const InstanceMaps* instance = context.instance(hit.instID[0]);
+    const Geometry& geometry = geometry_of(instance, hit);
+    if (!geometry.mesh) return reconstruct_curved(context, query);
+    const PreciseTriangle triangle = geometry.mesh->triangle(hit.primID);
+    const Vec2 barycentric = clamp_to_triangle({hit.u, hit.v});
+    const double t = plane_distance(triangle, context.ray_in(instance));
+    SceneHit result{.t = std::min(static_cast<float>(t), t_max),
+                    .group = 0,
+                    .shape = hit.geomID,
+                    .point = geometry.mesh->point(hit.primID, barycentric, triangle)};
+    if (instance) move_to_world(*instance, triangle.position(barycentric), result);
+    return result;
+  }
+
+  SceneHit reconstruct_curved(const RayContext& context, const RTCRayHit& query) const {
     const auto& [ray, hit] = query;
     const InstanceMaps* instance = context.instance(hit.instID[0]);
-    const uint32_t group = instance ? instance->group : 0;
-    const Geometry& geometry = geometries_[group][hit.geomID];
-    const PreciseRay local = context.ray_in(instance);
-    SceneHit result{.t = ray.tfar, .group = group, .shape = hit.geomID, .point = {}};
-    Vec3d p;  // in the space of the group
-    if (geometry.mesh) {
-      const double t = plane_distance(*geometry.mesh, hit.primID, local);
-      if (!(t > 0)) return std::nullopt;
-      result.t = std::min(static_cast<float>(t), t_max);
-      const Vec2 barycentric = clamp_to_triangle({hit.u, hit.v});
-      p = geometry.mesh->position(hit.primID, barycentric);
-      result.point = geometry.mesh->point(hit.primID, barycentric);
-    } else {
-      // Embree has room for floats only; the same arithmetic finds the same point again.
-      const std::optional<PreciseHit> found =
-          intersect_curved(geometry, hit.primID, local, infinity);
-      if (!found) return std::nullopt;
-      p = found->p;
-      result.point = surface_point(*geometry.shape, hit.primID, {hit.u, hit.v});
-    }
-    if (instance) {
-      const Affine& world = instance->world_from_group;
-      p = world.point(p);
-      result.point.ng = to_float(normalize_or_z(world.normal(Vec3d(result.point.ng))));
-      result.point.ns = to_float(normalize_or_z(world.normal(Vec3d(result.point.ns))));
-      if (dot(result.point.ns, result.point.ng) < 0) result.point.ns = -result.point.ns;
-    }
+    const Geometry& geometry = geometry_of(instance, hit);
+    SceneHit result{.t = ray.tfar,
+                    .group = 0,
+                    .shape = hit.geomID,
+                    .point = surface_point(*geometry.shape, hit.primID, {hit.u, hit.v})};
+    // Embree has room for floats only; the same arithmetic finds the same point again.
+    const std::optional<PreciseHit> found =
+        intersect_curved(geometry, hit.primID, context.ray_in(instance), infinity);
+    const Vec3d p = found ? found->p : Vec3d(result.point.p);
     result.point.p = to_float(p);
+    if (instance) move_to_world(*instance, p, result);
     return result;
   }
 
   Handle<RTCDevice> device_;
   std::vector<std::vector<Geometry>> geometries_;  // by group and shape
   std::vector<Handle<RTCScene>> scenes_;           // by group
-  std::vector<InstanceMaps> instances_;
-  uint32_t first_instance_ = 0;
+  InstanceTable instances_;
 };
 
 Intersector::Intersector(std::span<const Group> groups,
