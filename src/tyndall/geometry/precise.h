@@ -25,18 +25,26 @@ struct Vec3d {
         z(static_cast<double>(v.z)) {}
 
   constexpr Vec3d operator-() const { return {-x, -y, -z}; }
+
+  // Friends, so that they do not compete for the braces in length({x, y, z}).
+  friend constexpr Vec3d operator+(Vec3d a, Vec3d b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+  }
+  friend constexpr Vec3d operator-(Vec3d a, Vec3d b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+  }
+  friend constexpr Vec3d operator*(Vec3d a, double s) {
+    return {a.x * s, a.y * s, a.z * s};
+  }
+  friend constexpr Vec3d operator*(double s, Vec3d a) { return a * s; }
+  friend constexpr double dot(Vec3d a, Vec3d b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+  }
+  friend constexpr Vec3d cross(Vec3d a, Vec3d b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+  }
+  friend double length(Vec3d a) { return std::sqrt(dot(a, a)); }
 };
-
-constexpr Vec3d operator+(Vec3d a, Vec3d b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-constexpr Vec3d operator-(Vec3d a, Vec3d b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-constexpr Vec3d operator*(Vec3d a, double s) { return {a.x * s, a.y * s, a.z * s}; }
-constexpr Vec3d operator*(double s, Vec3d a) { return a * s; }
-
-constexpr double dot(Vec3d a, Vec3d b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-constexpr Vec3d cross(Vec3d a, Vec3d b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-inline double length(Vec3d a) { return std::sqrt(dot(a, a)); }
 
 /// Rounds each component to the nearest float.
 constexpr Vec3 to_float(Vec3d a) {
