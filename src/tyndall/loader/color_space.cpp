@@ -8,8 +8,8 @@ namespace {
 
 using Matrix3 = std::array<std::array<float, 3>, 3>;
 
-// From the primaries and whites in CIE 1931 chromaticities: DCI-P3 with D65, [Rec2020], and
-// ACES2065-1, whose white is adapted to D65 by [Bradford].
+// From the primaries and whites in CIE 1931 chromaticities: DCI-P3 with D65, [ITU15], and
+// ACES2065-1, whose white is adapted to D65 by [Lam85].
 constexpr Matrix3 from_dci_p3{{{1.2249402f, -0.2249402f, 0},
                                {-0.042057f, 1.042057f, 0},
                                {-0.0196376f, -0.078636f, 1.0982736f}}};

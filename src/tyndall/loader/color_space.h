@@ -14,7 +14,7 @@ enum class ColorSpace { srgb, dci_p3, rec2020, aces2065_1 };
 /// Empty if pbrt-v4 knows no such color space.
 std::optional<ColorSpace> color_space_by_name(std::string_view name);
 
-/// Linear Rec. 709 values of the same color, white adapted by [Bradford]: grey stays grey.
+/// Linear Rec. 709 values of the same color, white adapted by [Lam85]: grey stays grey.
 /// Colors outside the Rec. 709 gamut have negative components.
 Rgb rec709_from(ColorSpace space, Rgb color);
 

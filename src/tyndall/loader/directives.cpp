@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tyndall/loader/directives.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 
@@ -36,14 +38,16 @@ void translate(Parser& in, SceneBuilder& scene) {
 void scale(Parser& in, SceneBuilder& scene) {
   const auto [x, y, z] = in.numbers<3>();
   if (x == 0 || y == 0 || z == 0)
-    fail(in.directive().where, "Scale by zero flattens everything, got {} {} {}", x, y, z);
+    fail(in.directive().where,
+         fmt::format("Scale by zero flattens everything, got {} {} {}", x, y, z));
   scene.concatenate(Transform::scale({x, y, z}));
 }
 
 void rotate(Parser& in, SceneBuilder& scene) {
   const auto [angle, x, y, z] = in.numbers<4>();
-  if (!(length({x, y, z}) > 0) || !std::isfinite(length({x, y, z})))
-    fail(in.directive().where, "Rotate needs an axis, got {} {} {}", x, y, z);
+  const float size = length(Vec3{x, y, z});
+  if (!(size > 0) || !std::isfinite(size))
+    fail(in.directive().where, fmt::format("Rotate needs an axis, got {} {} {}", x, y, z));
   scene.concatenate(Transform::rotate(angle, {x, y, z}));
 }
 
@@ -63,7 +67,8 @@ Transform matrix(Parser& in) {
   for (size_t i = 0; i < 16; ++i) m[i % 4][i / 4] = v[i];
   const auto transform = Transform::from_matrix(m);
   if (!transform)
-    fail(in.directive().where, "{}: the matrix cannot be inverted", in.directive().text);
+    fail(in.directive().where,
+         fmt::format("{}: the matrix cannot be inverted", in.directive().text));
   return *transform;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tyndall/loader/environment_picture.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <stdexcept>
 
@@ -16,7 +18,7 @@ Image read(const std::string& path, Span where) {
   try {
     return read_image(path);
   } catch (const std::runtime_error& error) {
-    fail(where, "{}", error.what());
+    fail(where, fmt::format("{}", error.what()));
   }
 }
 
@@ -46,10 +48,12 @@ EnvironmentPicture read_environment(const std::string& path, Span where) {
   const Image image = read(path, where);
   if (image.width() != image.height() || image.width() < 1)
     fail(where,
-         "\"{}\": an environment must be a square equal-area picture, got {} x {} pixels; "
-         "pbrt-v4's \"imgtool makeequiarea\" converts latitude-longitude pictures",
-         path, image.width(), image.height());
-  if (image.channels().empty()) fail(where, "\"{}\" has no channels", path);
+         fmt::format(
+             "\"{}\": an environment must be a square equal-area picture, got {} x {} "
+             "pixels; "
+             "pbrt-v4's \"imgtool makeequiarea\" converts latitude-longitude pictures",
+             path, image.width(), image.height()));
+  if (image.channels().empty()) fail(where, fmt::format("\"{}\" has no channels", path));
   EnvironmentPicture picture{image.width(), {}};
   picture.pixels.reserve(image.pixel_count());
   const bool has_color = image.has_rgb();

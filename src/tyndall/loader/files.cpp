@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tyndall/loader/files.h"
 
+#include <fmt/format.h>
 #include <zlib.h>
 
 #include <cerrno>
@@ -39,7 +40,7 @@ std::string FileFinder::find(const std::string& name, Span where) const {
   const fs::path second =
       (fs::path(folder_of(sources_[where.source].name)) / name).lexically_normal();
   if (fs::exists(second, error)) return second.string();
-  fail(where, "cannot read \"{}\": {}", first.string(), std::strerror(ENOENT));
+  fail(where, fmt::format("cannot read \"{}\": {}", first.string(), std::strerror(ENOENT)));
 }
 
 std::string read_bytes(const std::string& path) {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 
@@ -14,16 +16,18 @@ void read_screen_window(ParameterSet& parameters, CameraRequest& camera) {
   const std::vector<float> window = parameters.numbers("screenwindow");
   if (!parameters.has("screenwindow")) return;
   if (window.size() != 4) {
-    parameters.error("screenwindow", "parameter \"screenwindow\" takes 4 values, got {}",
-                     window.size());
+    parameters.error(
+        "screenwindow",
+        fmt::format("parameter \"screenwindow\" takes 4 values, got {}", window.size()));
     return;
   }
   if (!(window[0] < window[1] && window[2] < window[3])) {
     parameters.error(
         "screenwindow",
-        "parameter \"screenwindow\" takes x_min x_max y_min y_max, each min below "
-        "max; got {} {} {} {}",
-        window[0], window[1], window[2], window[3]);
+        fmt::format(
+            "parameter \"screenwindow\" takes x_min x_max y_min y_max, each min below "
+            "max; got {} {} {} {}",
+            window[0], window[1], window[2], window[3]));
     return;
   }
   camera.has_screen_window = true;
@@ -46,8 +50,10 @@ CameraRequest make_camera(const std::string& type, ParameterSet& parameters,
   if (type != "perspective") {
     const std::vector<std::string_view> others{"orthographic", "spherical", "realistic"};
     const bool is_known = std::find(others.begin(), others.end(), type) != others.end();
-    fail(parameters.where(), "{}: {}; tyndall has \"perspective\"", parameters.owner(),
-         is_known ? "this camera is not supported" : "there is no such camera");
+    fail(
+        parameters.where(),
+        fmt::format("{}: {}; tyndall has \"perspective\"", parameters.owner(),
+                    is_known ? "this camera is not supported" : "there is no such camera"));
   }
   CameraRequest camera;
   camera.settings.world_from_camera = camera_from_world.inverse();

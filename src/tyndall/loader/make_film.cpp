@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,8 +19,9 @@ void read_resolution(ParameterSet& parameters, RenderSettings& settings) {
   settings.resolution.y = parameters.integer("yresolution", 720, at_least_one);
   const auto [x, y] = settings.resolution;
   if (int64_t{x} * int64_t{y} > max_pixels) {
-    parameters.error("xresolution", "a film of {} x {} pixels is too large; at most {} fit",
-                     x, y, max_pixels);
+    parameters.error("xresolution",
+                     fmt::format("a film of {} x {} pixels is too large; at most {} fit", x,
+                                 y, max_pixels));
     settings.resolution = {1, 1};
   }
 }
@@ -32,8 +35,9 @@ bool set_crop(ParameterSet& parameters, std::string_view name,
   if (settings.crop_min.x < settings.crop_max.x &&
       settings.crop_min.y < settings.crop_max.y)
     return true;
-  parameters.error(name, "parameter \"{}\" leaves no pixels of the {} x {} film", name,
-                   size.x, size.y);
+  parameters.error(
+      name, fmt::format("parameter \"{}\" leaves no pixels of the {} x {} film", name,
+                        size.x, size.y));
   return false;
 }
 
@@ -41,8 +45,9 @@ void read_crop_window(ParameterSet& parameters, RenderSettings& settings) {
   const std::vector<float> window = parameters.numbers("cropwindow");
   if (!parameters.has("cropwindow")) return;
   if (window.size() != 4) {
-    parameters.error("cropwindow", "parameter \"cropwindow\" takes 4 values, got {}",
-                     window.size());
+    parameters.error(
+        "cropwindow",
+        fmt::format("parameter \"cropwindow\" takes 4 values, got {}", window.size()));
     return;
   }
   const auto pixel = [](float fraction, int size) {
@@ -61,8 +66,9 @@ void read_pixel_bounds(ParameterSet& parameters, RenderSettings& settings) {
   const std::vector<int> bounds = parameters.integers("pixelbounds");
   if (!parameters.has("pixelbounds")) return;
   if (bounds.size() != 4) {
-    parameters.error("pixelbounds", "parameter \"pixelbounds\" takes 4 values, got {}",
-                     bounds.size());
+    parameters.error(
+        "pixelbounds",
+        fmt::format("parameter \"pixelbounds\" takes 4 values, got {}", bounds.size()));
     return;
   }
   set_crop(parameters, "pixelbounds", {bounds[0], bounds[1], bounds[2], bounds[3]},
@@ -73,7 +79,8 @@ void read_sensor(ParameterSet& parameters, RenderSettings& settings) {
   const std::string sensor = parameters.string("sensor", "cie1931");
   if (sensor != "cie1931")
     parameters.unsupported(
-        "sensor", "sensor \"{}\" is not supported, \"cie1931\" is used instead", sensor);
+        "sensor",
+        fmt::format("sensor \"{}\" is not supported, \"cie1931\" is used instead", sensor));
   const float white_balance = parameters.number("whitebalance", 0, not_negative);
   if (white_balance != 0)
     parameters.unsupported("whitebalance",
@@ -88,12 +95,13 @@ void read_sensor(ParameterSet& parameters, RenderSettings& settings) {
 void set_film(const std::string& type, ParameterSet& parameters, RenderSettings& settings) {
   if (type != "rgb" && type != "gbuffer" && type != "spectral")
     fail(parameters.where(),
-         "{}: there is no such film; there are \"rgb\", \"gbuffer\", \"spectral\"",
-         parameters.owner());
+         fmt::format(
+             "{}: there is no such film; there are \"rgb\", \"gbuffer\", \"spectral\"",
+             parameters.owner()));
   if (type != "rgb")
-    parameters.reporter().unsupported(parameters.where(),
-                                      "{}: not supported, \"rgb\" is used instead",
-                                      parameters.owner());
+    parameters.reporter().unsupported(
+        parameters.where(),
+        fmt::format("{}: not supported, \"rgb\" is used instead", parameters.owner()));
   read_resolution(parameters, settings);
   settings.crop_min = {0, 0};
   settings.crop_max = settings.resolution;

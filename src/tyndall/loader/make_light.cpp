@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
 #include <string_view>
@@ -44,8 +46,9 @@ Vec3 read_axis(ParameterSet& parameters, Vec3 from) {
   const Vec3 to = parameters.point3("to").value_or(Vec3{0, 0, 1});
   const Vec3 axis = to - from;
   if (length(axis) > 0 && std::isfinite(length(axis))) return axis;
-  parameters.error("to", "\"from\" and \"to\" must be two points, both are {} {} {}", to.x,
-                   to.y, to.z);
+  parameters.error(
+      "to", fmt::format("\"from\" and \"to\" must be two points, both are {} {} {}", to.x,
+                        to.y, to.z));
   return {0, 0, 1};
 }
 
@@ -106,7 +109,8 @@ std::optional<Light> make_infinite(const LightContext& in) {
 std::optional<Light> not_yet(const LightContext& in) {
   in.parameters.ignore_all();
   in.parameters.reporter().unsupported(
-      in.parameters.where(), "{}: not supported yet, skipped", in.parameters.owner());
+      in.parameters.where(),
+      fmt::format("{}: not supported yet, skipped", in.parameters.owner()));
   return std::nullopt;
 }
 
@@ -131,16 +135,17 @@ std::optional<Light> make_light(const std::string& type, ParameterSet& parameter
     if (known.name == type) return known.make({parameters, world_from_light, files});
     names.push_back(known.name);
   }
-  fail(parameters.where(), "{}: there is no such light; there are {}", parameters.owner(),
-       quoted_list(names));
+  fail(parameters.where(), fmt::format("{}: there is no such light; there are {}",
+                                       parameters.owner(), quoted_list(names)));
 }
 
 std::optional<AreaLightRequest> make_area_light(const std::string& type,
                                                 ParameterSet& parameters,
                                                 const FileFinder& files) {
   if (type != "diffuse")
-    fail(parameters.where(), "{}: there is no such area light; there is \"diffuse\"",
-         parameters.owner());
+    fail(parameters.where(),
+         fmt::format("{}: there is no such area light; there is \"diffuse\"",
+                     parameters.owner()));
   if (parameters.has("filename"))
     parameters.unsupported(
         "filename", "emission pictures are not supported yet; the light shines evenly");

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -68,8 +70,8 @@ Material make_metal(const MaterialContext& in, std::string_view eta_name,
   if (p.has("reflectance")) {
     if (p.has(eta_name) || p.has(k_name))
       p.error("reflectance",
-              "\"reflectance\" cannot be given together with \"{}\" or \"{}\"", eta_name,
-              k_name);
+              fmt::format("\"reflectance\" cannot be given together with \"{}\" or \"{}\"",
+                          eta_name, k_name));
     p.ignore({eta_name, k_name});
     return metal_of_reflectance(in.reflectance("reflectance", 0.5f), alpha);
   }
@@ -91,7 +93,8 @@ float read_index(const MaterialContext& in) {
   const Rgb eta =
       in.textures.spectrum(p, "eta", SpectrumUse::coefficient).value_or(Rgb(1.5f));
   if (min_component(eta) > 0) return eta.g;
-  p.error("eta", "parameter \"eta\" must be positive, got {}", min_component(eta));
+  p.error("eta",
+          fmt::format("parameter \"eta\" must be positive, got {}", min_component(eta)));
   return 1.5f;
 }
 
@@ -104,9 +107,9 @@ Material make_dielectric(const MaterialContext& in) {
 Material make_interface(const MaterialContext&) { return InterfaceBsdf{}; }
 
 void say_instead(const MaterialContext& in, std::string_view replacement) {
-  in.parameters.reporter().unsupported(in.parameters.where(),
-                                       "{}: not supported yet, {} takes its place",
-                                       in.parameters.owner(), replacement);
+  in.parameters.reporter().unsupported(
+      in.parameters.where(), fmt::format("{}: not supported yet, {} takes its place",
+                                         in.parameters.owner(), replacement));
 }
 
 Material make_thin_dielectric(const MaterialContext& in) {
@@ -165,8 +168,8 @@ const Material* find_named(const MaterialContext& in, const std::string& name) {
   if (found != in.named.end()) return &found->second;
   std::vector<std::string_view> names;
   for (const auto& entry : in.named) names.push_back(entry.first);
-  in.parameters.error("materials", "there is no material named \"{}\"{}", name,
-                      did_you_mean(name, names));
+  in.parameters.error("materials", fmt::format("there is no material named \"{}\"{}", name,
+                                               did_you_mean(name, names)));
   return nullptr;
 }
 
@@ -177,8 +180,8 @@ Material make_mix(const MaterialContext& in) {
   const float amount = in.textures.number(p, "amount", 0.5f, {0, 1});
   if (names.size() != 2)
     fail(p.where("materials"),
-         "{}: parameter \"string materials\" must name 2 materials, got {}", p.owner(),
-         names.size());
+         fmt::format("{}: parameter \"string materials\" must name 2 materials, got {}",
+                     p.owner(), names.size()));
   const Material* a = find_named(in, names[0]);
   const Material* b = find_named(in, names[1]);
   if (!a || !b) return DiffuseBsdf{Rgb(0.5f)};
@@ -216,7 +219,8 @@ constexpr std::array material_types{
 void ignore_bumps(ParameterSet& parameters) {
   for (const std::string_view name : {"displacement", "normalmap"})
     if (parameters.has(name))
-      parameters.unsupported(name, "\"{}\" is not supported yet, it is ignored", name);
+      parameters.unsupported(
+          name, fmt::format("\"{}\" is not supported yet, it is ignored", name));
   parameters.ignore({"displacement", "normalmap"});
 }
 
@@ -232,8 +236,8 @@ Material make_material(const std::string& type, ParameterSet& parameters,
     }
     if (!known.name.empty()) names.push_back(known.name);
   }
-  fail(parameters.where(), "{}: there is no material type \"{}\"; there are {}",
-       parameters.owner(), type, quoted_list(names));
+  fail(parameters.where(), fmt::format("{}: there is no material type \"{}\"; there are {}",
+                                       parameters.owner(), type, quoted_list(names)));
 }
 
 }  // namespace tyndall::loader

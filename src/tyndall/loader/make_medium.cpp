@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <numeric>
@@ -26,8 +28,8 @@ std::optional<MediumPreset> read_preset(ParameterSet& parameters) {
   if (name.empty()) return std::nullopt;
   std::optional<MediumPreset> preset = medium_preset(name);
   if (!preset)
-    parameters.error("preset", "there is no preset \"{}\"{}", name,
-                     did_you_mean(name, medium_preset_names()));
+    parameters.error("preset", fmt::format("there is no preset \"{}\"{}", name,
+                                           did_you_mean(name, medium_preset_names())));
   return preset;
 }
 
@@ -67,17 +69,18 @@ void check_grid(ParameterSet& parameters, std::string_view name, std::vector<flo
   const size_t expected =
       static_cast<size_t>(n.x) * static_cast<size_t>(n.y) * static_cast<size_t>(n.z);
   if (values.size() != expected) {
-    parameters.error(name,
-                     "nx * ny * nz = {} * {} * {} = {} values of \"{}\" expected, got {}",
-                     n.x, n.y, n.z, expected, name, values.size());
+    parameters.error(
+        name,
+        fmt::format("nx * ny * nz = {} * {} * {} = {} values of \"{}\" expected, got {}",
+                    n.x, n.y, n.z, expected, name, values.size()));
     values.clear();
     return;
   }
   const auto bad =
       std::find_if(values.begin(), values.end(), [](float x) { return !(x >= 0); });
   if (bad == values.end()) return;
-  parameters.error(name, "value {} of \"{}\" must not be negative, got {}",
-                   bad - values.begin(), name, *bad);
+  parameters.error(name, fmt::format("value {} of \"{}\" must not be negative, got {}",
+                                     bad - values.begin(), name, *bad));
   values.clear();
 }
 
@@ -91,9 +94,10 @@ Bounds3 read_box(ParameterSet& parameters) {
   const Vec3 p0 = parameters.point3("p0").value_or(Vec3{0, 0, 0});
   const Vec3 p1 = parameters.point3("p1").value_or(Vec3{1, 1, 1});
   if (!(p0.x < p1.x && p0.y < p1.y && p0.z < p1.z)) {
-    parameters.error("p1",
-                     "p1 must lie above p0 in x, y and z; got p0 = {} {} {}, p1 = {} {} {}",
-                     p0.x, p0.y, p0.z, p1.x, p1.y, p1.z);
+    parameters.error(
+        "p1",
+        fmt::format("p1 must lie above p0 in x, y and z; got p0 = {} {} {}, p1 = {} {} {}",
+                    p0.x, p0.y, p0.z, p1.x, p1.y, p1.z));
     return {{0, 0, 0}, {1, 1, 1}};
   }
   return {p0, p1};
@@ -138,8 +142,9 @@ std::optional<Medium> not_yet(const MediumContext& in) {
   in.parameters.ignore_all();
   in.parameters.reporter().unsupported(
       in.parameters.where(),
-      "{}: media of type \"{}\" are not supported yet; empty space takes its place",
-      in.parameters.owner(), in.parameters.string("type", ""));
+      fmt::format(
+          "{}: media of type \"{}\" are not supported yet; empty space takes its place",
+          in.parameters.owner(), in.parameters.string("type", "")));
   return std::nullopt;
 }
 
@@ -162,16 +167,17 @@ std::optional<Medium> make_medium(ParameterSet& parameters,
                                   const Transform& world_from_medium,
                                   const FileFinder& files) {
   if (!parameters.has("type"))
-    fail(parameters.where(), "{}: parameter \"string type\" is missing",
-         parameters.owner());
+    fail(parameters.where(),
+         fmt::format("{}: parameter \"string type\" is missing", parameters.owner()));
   const std::string type = parameters.string("type", "");
   std::vector<std::string_view> names;
   for (const MediumType& known : medium_types) {
     if (known.name == type) return known.make({parameters, world_from_medium, files});
     names.push_back(known.name);
   }
-  fail(parameters.where("type"), "{}: there is no medium type \"{}\"; there are {}",
-       parameters.owner(), type, quoted_list(names));
+  fail(parameters.where("type"),
+       fmt::format("{}: there is no medium type \"{}\"; there are {}", parameters.owner(),
+                   type, quoted_list(names)));
 }
 
 }  // namespace tyndall::loader

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sampler, PixelFilter and Integrator.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <string_view>
 #include <vector>
@@ -16,8 +18,8 @@ using Names = std::vector<std::string_view>;
 void check_type(const std::string& type, const ParameterSet& parameters, const Names& names,
                 std::string_view what) {
   if (std::find(names.begin(), names.end(), type) == names.end())
-    fail(parameters.where(), "{}: there is no such {}; there are {}", parameters.owner(),
-         what, quoted_list(names));
+    fail(parameters.where(), fmt::format("{}: there is no such {}; there are {}",
+                                         parameters.owner(), what, quoted_list(names)));
 }
 
 constexpr Range at_least_one{1, infinity};
@@ -69,8 +71,8 @@ void set_pixel_filter(const std::string& type, ParameterSet& parameters,
   if (type == "sinc") {
     parameters.reporter().unsupported(
         parameters.where(),
-        "{}: not supported yet, \"mitchell\" of radius 2 is used instead",
-        parameters.owner());
+        fmt::format("{}: not supported yet, \"mitchell\" of radius 2 is used instead",
+                    parameters.owner()));
     parameters.ignore({"tau", "xradius", "yradius"});
   }
   filter.radius.x =

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <stdexcept>
@@ -24,8 +26,9 @@ template <typename T>
 void check_per_vertex(ParameterSet& parameters, std::string_view name,
                       std::vector<T>& values, size_t vertex_count) {
   if (values.empty() || values.size() == vertex_count) return;
-  parameters.error(name, "\"{}\" must be given for each of the {} vertices, got {}", name,
-                   vertex_count, values.size());
+  parameters.error(
+      name, fmt::format("\"{}\" must be given for each of the {} vertices, got {}", name,
+                        vertex_count, values.size()));
   values.clear();
 }
 
@@ -38,16 +41,16 @@ std::vector<int> read_indices(ParameterSet& parameters, size_t vertex_count) {
   if (indices.empty())
     parameters.error("indices", "parameter \"integer indices\" is missing");
   if (indices.size() % N != 0) {
-    parameters.error("indices", "\"indices\" come in groups of {}, got {}", N,
-                     indices.size());
+    parameters.error("indices", fmt::format("\"indices\" come in groups of {}, got {}", N,
+                                            indices.size()));
     return {};
   }
   const auto bad = std::find_if(indices.begin(), indices.end(), [&](int i) {
     return i < 0 || static_cast<size_t>(i) >= vertex_count;
   });
   if (bad == indices.end()) return indices;
-  parameters.error("indices", "index {} is {}, but there are {} vertices",
-                   bad - indices.begin(), *bad, vertex_count);
+  parameters.error("indices", fmt::format("index {} is {}, but there are {} vertices",
+                                          bad - indices.begin(), *bad, vertex_count));
   return {};
 }
 
@@ -81,22 +84,21 @@ std::optional<Shape> make_bilinear(const ShapeContext& in) {
     p.unsupported("emissionfilename",
                   "emission pictures are not supported yet, it is ignored");
   p.ignore({"emissionfilename"});
-  BilinearMesh mesh;
-  mesh.positions = read_positions(p);
-  mesh.normals = p.normals("N");
-  mesh.uvs = p.points2("uv");
-  if (mesh.positions.empty()) return std::nullopt;
-  check_per_vertex(p, "N", mesh.normals, mesh.positions.size());
-  check_per_vertex(p, "uv", mesh.uvs, mesh.positions.size());
-  const std::vector<int> indices = read_indices<4>(p, mesh.positions.size());
+  std::vector<Vec3> positions = read_positions(p);
+  std::vector<Vec3> normals = p.normals("N");
+  std::vector<Vec2> uvs = p.points2("uv");
+  if (positions.empty()) return std::nullopt;
+  check_per_vertex(p, "N", normals, positions.size());
+  check_per_vertex(p, "uv", uvs, positions.size());
+  const std::vector<int> indices = read_indices<4>(p, positions.size());
   if (indices.empty()) return std::nullopt;
+  std::vector<std::array<int, 4>> patches;
   for (size_t i = 0; i < indices.size(); i += 4)
-    mesh.patches.push_back({indices[i], indices[i + 1], indices[i + 2], indices[i + 3]});
-  for (Vec3& point : mesh.positions) point = in.world_from_object.point(point);
-  for (Vec3& normal : mesh.normals)
-    normal = in.world_from_object.normal(in.reverse_orientation ? -normal : normal);
-  mesh.flip_normals = in.reverse_orientation != in.world_from_object.swaps_handedness();
-  return mesh;
+    patches.push_back({indices[i], indices[i + 1], indices[i + 2], indices[i + 3]});
+  move_to_world(positions, normals, in.world_from_object, in.reverse_orientation);
+  return BilinearMesh(std::move(positions), std::move(patches), std::move(normals),
+                      std::move(uvs),
+                      in.reverse_orientation != in.world_from_object.swaps_handedness());
 }
 
 std::optional<Shape> make_ply(const ShapeContext& in) {
@@ -105,18 +107,19 @@ std::optional<Shape> make_ply(const ShapeContext& in) {
     p.unsupported("displacement", "displacement is not supported yet, it is ignored");
   p.ignore({"displacement", "edgelength"});
   if (!p.has("filename"))
-    fail(p.where(), "{}: parameter \"string filename\" is missing", p.owner());
+    fail(p.where(), fmt::format("{}: parameter \"string filename\" is missing", p.owner()));
   const std::string path = in.files.find(p.string("filename", ""), p.where("filename"));
   try {
     PlyMesh ply = read_ply(read_bytes(path));
     if (ply.has_skipped_faces)
-      p.reporter().warning(p.where("filename"),
-                           "\"{}\": faces with fewer than three corners are skipped", path);
+      p.reporter().warning(
+          p.where("filename"),
+          fmt::format("\"{}\": faces with fewer than three corners are skipped", path));
     return make_triangle_mesh({std::move(ply.positions), std::move(ply.triangles),
                                std::move(ply.normals), std::move(ply.uvs)},
                               in.world_from_object, in.reverse_orientation);
   } catch (const std::runtime_error& error) {
-    fail(p.where("filename"), "cannot read \"{}\": {}", path, error.what());
+    fail(p.where("filename"), fmt::format("cannot read \"{}\": {}", path, error.what()));
   }
 }
 
@@ -149,7 +152,8 @@ std::optional<Shape> make_disk(const ShapeContext& in) {
 std::optional<Shape> not_yet(const ShapeContext& in) {
   in.parameters.ignore_all();
   in.parameters.reporter().unsupported(
-      in.parameters.where(), "{}: not supported yet, skipped", in.parameters.owner());
+      in.parameters.where(),
+      fmt::format("{}: not supported yet, skipped", in.parameters.owner()));
   return std::nullopt;
 }
 
@@ -180,8 +184,8 @@ std::optional<Shape> make_shape(const std::string& type, ParameterSet& parameter
       return known.make({parameters, world_from_object, reverse_orientation, files});
     names.push_back(known.name);
   }
-  fail(parameters.where(), "{}: there is no such shape; there are {}", parameters.owner(),
-       quoted_list(names));
+  fail(parameters.where(), fmt::format("{}: there is no such shape; there are {}",
+                                       parameters.owner(), quoted_list(names)));
 }
 
 }  // namespace tyndall::loader

@@ -17,6 +17,10 @@ struct MeshParts {
   std::vector<Vec2> uvs;      ///< empty or one per position
 };
 
+/// To world space; `reverse_orientation` negates the normals.
+void move_to_world(std::vector<Vec3>& positions, std::vector<Vec3>& normals,
+                   const Transform& world_from_object, bool reverse_orientation);
+
 /// The mesh in world space. As in pbrt-v4, a triangle with normals faces where they do, one
 /// without faces where its winding says; `reverse_orientation` turns both around.
 TriangleMesh make_triangle_mesh(MeshParts parts, const Transform& world_from_object,

@@ -37,7 +37,7 @@ struct Parameter {
   Span where;                                 ///< declaration and values
   ColorSpace color_space = ColorSpace::srgb;  ///< in force where it stands
   bool is_default = false;                    ///< from an Attribute directive
-  mutable bool is_used = false;
+  bool is_used = false;
 
   std::vector<float> numbers;
   std::vector<int> integers;

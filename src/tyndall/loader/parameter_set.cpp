@@ -106,14 +106,15 @@ Parameter* ParameterSet::find(std::string_view name,
   for (Parameter& p : parameters_) p.is_used = p.is_used || p.name == name;
   if (std::find(types.begin(), types.end(), parameter->type) != types.end())
     return parameter;
-  error(name, "parameter \"{}\" must be of type {}, not \"{}\"", name, alternatives(types),
-        name_of(parameter->type));
+  error(name, fmt::format("parameter \"{}\" must be of type {}, not \"{}\"", name,
+                          alternatives(types), name_of(parameter->type)));
   return nullptr;
 }
 
 bool ParameterSet::has_one_value(const Parameter& parameter, size_t count) const {
   if (count == 1) return true;
-  error(parameter.name, "parameter \"{}\" takes one value, got {}", parameter.name, count);
+  error(parameter.name,
+        fmt::format("parameter \"{}\" takes one value, got {}", parameter.name, count));
   return false;
 }
 
@@ -122,7 +123,7 @@ float ParameterSet::number(std::string_view name, float otherwise, Range range) 
   if (!parameter || !has_one_value(*parameter, parameter->numbers.size())) return otherwise;
   const float value = parameter->numbers[0];
   if (range.contains(value)) return value;
-  error(name, "parameter \"{}\" {}, got {}", name, range.text(), value);
+  error(name, fmt::format("parameter \"{}\" {}, got {}", name, range.text(), value));
   return otherwise;
 }
 
@@ -132,7 +133,7 @@ int ParameterSet::integer(std::string_view name, int otherwise, Range range) {
     return otherwise;
   const int value = parameter->integers[0];
   if (range.contains(static_cast<float>(value))) return value;
-  error(name, "parameter \"{}\" {}, got {}", name, range.text(), value);
+  error(name, fmt::format("parameter \"{}\" {}, got {}", name, range.text(), value));
   return otherwise;
 }
 
@@ -187,6 +188,14 @@ std::vector<Vec3> ParameterSet::normals(std::string_view name) {
   return triples(find(name, {ParameterType::normal}));
 }
 
+void ParameterSet::error(std::string_view name, std::string_view message) const {
+  reporter_->error(where(name), fmt::format("{}: {}", owner_, message));
+}
+
+void ParameterSet::unsupported(std::string_view name, std::string_view message) const {
+  reporter_->unsupported(where(name), fmt::format("{}: {}", owner_, message));
+}
+
 void ParameterSet::ignore(std::initializer_list<std::string_view> names) {
   for (const std::string_view name : names) {
     asked_.push_back(name);
@@ -201,8 +210,8 @@ void ParameterSet::ignore_all() {
 void ParameterSet::report_unknown() {
   for (const Parameter& p : parameters_) {
     if (p.is_used || p.is_default) continue;
-    reporter_->error(p.where, "{}: unknown parameter \"{}\"{}", owner_, p.name,
-                     did_you_mean(p.name, asked_));
+    reporter_->error(p.where, fmt::format("{}: unknown parameter \"{}\"{}", owner_, p.name,
+                                          did_you_mean(p.name, asked_)));
   }
 }
 

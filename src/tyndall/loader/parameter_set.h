@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <fmt/core.h>
-
 #include <initializer_list>
 #include <optional>
 #include <string>
@@ -71,18 +69,9 @@ class ParameterSet {
   /// Where to point for a parameter: at it, or at the directive if it is not given.
   Span where(std::string_view name) const;
 
-  template <typename... Args>
-  void error(std::string_view name, fmt::format_string<Args...> format,
-             Args&&... args) const {
-    reporter_->error(where(name), "{}: {}", owner_,
-                     fmt::format(format, std::forward<Args>(args)...));
-  }
-  template <typename... Args>
-  void unsupported(std::string_view name, fmt::format_string<Args...> format,
-                   Args&&... args) const {
-    reporter_->unsupported(where(name), "{}: {}", owner_,
-                           fmt::format(format, std::forward<Args>(args)...));
-  }
+  /// About the parameter, with the owner's name before the message.
+  void error(std::string_view name, std::string_view message) const;
+  void unsupported(std::string_view name, std::string_view message) const;
 
  private:
   const Parameter* look_up(std::string_view name) const;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tyndall/loader/parser.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <stdexcept>
 
@@ -40,7 +42,7 @@ void Parser::run(uint32_t source) {
     try {
       step();
     } catch (const Failure& failure) {
-      reporter_.add_error(failure.where, failure.message);
+      reporter_.error(failure.where, failure.message);
       recover();
     }
   }
@@ -52,8 +54,9 @@ void Parser::step() {
   if (directive_.kind != TokenKind::word) fail_at(directive_, "a directive");
   const Directive* known = find_directive(directive_.text);
   if (!known)
-    fail(directive_.where, "unknown directive \"{}\"{}", directive_.text.substr(0, 40),
-         did_you_mean(directive_.text, directive_names()));
+    fail(directive_.where,
+         fmt::format("unknown directive \"{}\"{}", directive_.text.substr(0, 40),
+                     did_you_mean(directive_.text, directive_names())));
   seen_.insert(known->name);
   builder_.enter(known->phase, directive_);
   known->read(*this, builder_);
@@ -79,8 +82,9 @@ void Parser::recover() {
 
 void Parser::fail_at(const Token& token, std::string_view expected) {
   if (looks_like_directive(token)) tokenizer().rewind(token);  // recover() goes on with it
-  fail(token.where, "expected {}, {}{}", expected,
-       token.kind == TokenKind::end ? "but " : "", description(token));
+  fail(token.where,
+       fmt::format("expected {}, {}{}", expected,
+                   token.kind == TokenKind::end ? "but " : "", description(token)));
 }
 
 float Parser::number() {
@@ -90,7 +94,7 @@ float Parser::number() {
       parse_number(token.text, value) == NumberError::malformed)
     fail_at(token, "a number");
   if (parse_number(token.text, value) == NumberError::too_large)
-    fail(token.where, "the number {} is too large", token.text.substr(0, 40));
+    fail(token.where, fmt::format("the number {} is too large", token.text.substr(0, 40)));
   return value;
 }
 
@@ -125,10 +129,11 @@ std::string Parser::value() {
 void Parser::include(const std::string& name, Span where, bool is_import) {
   const int depth = sources_[where.source].depth + 1;
   if (depth > max_depth)
-    fail(where, "files include each other more than {} deep; does one include itself?",
-         max_depth);
+    fail(where,
+         fmt::format("files include each other more than {} deep; does one include itself?",
+                     max_depth));
   if (sources_.size() >= max_files)
-    fail(where, "more than {} files are included", max_files);
+    fail(where, fmt::format("more than {} files are included", max_files));
   const std::string path = files_.find(name, where);
   const uint32_t source = sources_.add({path, text_of(path, where), where, depth});
   if (is_import) builder_.begin_import();
@@ -141,7 +146,7 @@ std::shared_ptr<const std::string> Parser::text_of(const std::string& path, Span
   try {
     text = std::make_shared<const std::string>(read_bytes(path));
   } catch (const std::runtime_error& error) {
-    fail(where, "cannot read \"{}\": {}", path, error.what());
+    fail(where, fmt::format("cannot read \"{}\": {}", path, error.what()));
   }
   return text;
 }

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 
@@ -42,7 +44,8 @@ ParameterType type_by_name(std::string_view name, Span where) {
     if (entry.name == name) return entry.type;
     names.push_back(entry.name);
   }
-  fail(where, "unknown parameter type \"{}\"{}", name, did_you_mean(name, names));
+  fail(where,
+       fmt::format("unknown parameter type \"{}\"{}", name, did_you_mean(name, names)));
 }
 
 // Values come in groups of so many numbers.
@@ -73,8 +76,9 @@ Declaration split(const Token& token) {
   const size_t name_begin = std::min(text.find_first_not_of(blanks, type_end), text.size());
   const size_t name_end = std::min(text.find_first_of(blanks, name_begin), text.size());
   if (name_begin == name_end || text.find_first_not_of(blanks, name_end) != text.npos)
-    fail(token.where, "expected a parameter's type and name in quotes, got \"{}\"",
-         text.substr(0, 40));
+    fail(token.where,
+         fmt::format("expected a parameter's type and name in quotes, got \"{}\"",
+                     text.substr(0, 40)));
   return {text.substr(type_begin, type_end - type_begin),
           text.substr(name_begin, name_end - name_begin)};
 }
@@ -101,8 +105,9 @@ Parameter Parser::parameter(const Token& declaration) {
   read_values(parameter);
   const size_t group = group_size(parameter.type);
   if (parameter.numbers.size() % group != 0)
-    fail(parameter.where, "\"{} {}\" takes numbers in groups of {}, got {}", names.type,
-         names.name, group, parameter.numbers.size());
+    fail(parameter.where,
+         fmt::format("\"{} {}\" takes numbers in groups of {}, got {}", names.type,
+                     names.name, group, parameter.numbers.size()));
   return parameter;
 }
 
@@ -128,7 +133,7 @@ void Parser::add_number(std::vector<T>& numbers, const Parameter& parameter,
   numbers.push_back(value);
   if (error == NumberError::none) return;
   if (error == NumberError::too_large)
-    fail(token.where, "the number {} is too large", token.text.substr(0, 40));
+    fail(token.where, fmt::format("the number {} is too large", token.text.substr(0, 40)));
   fail_at(token, fmt::format("{} for \"{} {}\"",
                              std::is_same_v<T, int> ? "an integer" : "a number",
                              name_of(parameter.type), parameter.name));

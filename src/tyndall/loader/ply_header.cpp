@@ -10,10 +10,7 @@
 namespace tyndall::loader {
 namespace {
 
-template <typename... Args>
-[[noreturn]] void broken(fmt::format_string<Args...> format, Args&&... args) {
-  throw std::runtime_error(fmt::format(format, std::forward<Args>(args)...));
-}
+[[noreturn]] void broken(const std::string& reason) { throw std::runtime_error(reason); }
 
 std::vector<std::string_view> words(std::string_view line) {
   std::vector<std::string_view> result;
@@ -42,14 +39,14 @@ PlyType type_by_name(std::string_view name) {
       Name{"double", PlyType::float64}, Name{"float64", PlyType::float64}};
   for (const Name& entry : names)
     if (entry.name == name) return entry.type;
-  broken("the PLY header has an unknown type \"{}\"", name.substr(0, 40));
+  broken(fmt::format("the PLY header has an unknown type \"{}\"", name.substr(0, 40)));
 }
 
 PlyFormat format_by_name(std::string_view name) {
   if (name == "ascii") return PlyFormat::ascii;
   if (name == "binary_little_endian") return PlyFormat::binary_little_endian;
   if (name == "binary_big_endian") return PlyFormat::binary_big_endian;
-  broken("the PLY header has an unknown format \"{}\"", name.substr(0, 40));
+  broken(fmt::format("the PLY header has an unknown format \"{}\"", name.substr(0, 40)));
 }
 
 bool is_integer(PlyType type) {
@@ -63,8 +60,8 @@ PlyElement element_of(const std::vector<std::string_view>& line) {
   const char* const end = line[2].data() + line[2].size();
   const auto [at, error] = std::from_chars(line[2].data(), end, element.count);
   if (at != end || error != std::errc{})
-    broken("the PLY header has \"{}\" elements \"{}\"", line[2].substr(0, 40),
-           element.name);
+    broken(fmt::format("the PLY header has \"{}\" elements \"{}\"", line[2].substr(0, 40),
+                       element.name));
   return element;
 }
 
@@ -77,7 +74,8 @@ PlyProperty property_of(const std::vector<std::string_view>& line) {
   if (!is_list) return property;
   property.count_type = type_by_name(line[2]);
   if (!is_integer(property.count_type))
-    broken("the PLY header has a list \"{}\" whose count is not an integer", property.name);
+    broken(fmt::format("the PLY header has a list \"{}\" whose count is not an integer",
+                       property.name));
   return property;
 }
 
@@ -93,7 +91,7 @@ void add_line(PlyHeader& header, const std::vector<std::string_view>& line,
     if (header.elements.empty()) broken("the PLY header has a property before any element");
     header.elements.back().properties.push_back(property_of(line));
   } else {
-    broken("the PLY header has an unknown line \"{}\"", line[0].substr(0, 40));
+    broken(fmt::format("the PLY header has an unknown line \"{}\"", line[0].substr(0, 40)));
   }
 }
 
@@ -133,8 +131,7 @@ PlyHeader read_ply_header(std::string_view bytes) {
     if (!is_first) add_line(header, line, has_format);
     is_first = false;
   }
-  if (bytes.empty()) broken("it is empty");
-  broken("the PLY header has no end");
+  broken(bytes.empty() ? "it is empty" : "the PLY header has no end");
 }
 
 }  // namespace tyndall::loader

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tyndall/loader/reporter.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "tyndall/loader/excerpt.h"
@@ -23,17 +25,24 @@ Diagnostic Reporter::diagnostic(Severity severity, Span where, std::string messa
   return {severity, at, std::move(message), std::move(text)};
 }
 
-void Reporter::add_error(Span where, std::string message) {
+void Reporter::error(Span where, std::string message) {
   errors_.push_back(diagnostic(Severity::error, where, std::move(message)));
   if (errors_.size() >= max_errors) throw_if_errors();
 }
 
-void Reporter::add_warning(Span where, std::string message) {
+void Reporter::warning(Span where, std::string message) {
   const int count = ++warned_[message];
   if (count > max_alike) return;
   if (count == max_alike) message += " (the last time that this is said)";
   warnings_.push_back(diagnostic(Severity::warning, where, std::move(message)));
   if (options_.on_warning) options_.on_warning(warnings_.back());
+}
+
+void Reporter::unsupported(Span where, std::string message) {
+  if (options_.strict)
+    error(where, std::move(message));
+  else
+    warning(where, std::move(message));
 }
 
 void Reporter::throw_if_errors() const {

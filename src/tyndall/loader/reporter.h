@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <fmt/core.h>
-
 #include <map>
 #include <string>
 #include <utility>
@@ -21,9 +19,8 @@ struct Failure {
   std::string message;
 };
 
-template <typename... Args>
-[[noreturn]] void fail(Span where, fmt::format_string<Args...> format, Args&&... args) {
-  throw Failure{where, fmt::format(format, std::forward<Args>(args)...)};
+[[noreturn]] inline void fail(Span where, std::string message) {
+  throw Failure{where, std::move(message)};
 }
 
 /// Collects errors and passes warnings on.
@@ -36,22 +33,10 @@ class Reporter {
       : sources_(sources), options_(options) {}
 
   /// Throws SceneError when it is the last of `max_errors`.
-  template <typename... Args>
-  void error(Span where, fmt::format_string<Args...> format, Args&&... args) {
-    add_error(where, fmt::format(format, std::forward<Args>(args)...));
-  }
-  template <typename... Args>
-  void warning(Span where, fmt::format_string<Args...> format, Args&&... args) {
-    add_warning(where, fmt::format(format, std::forward<Args>(args)...));
-  }
+  void error(Span where, std::string message);
+  void warning(Span where, std::string message);
   /// Valid pbrt-v4 that tyndall cannot do: a warning, or an error in strict mode.
-  template <typename... Args>
-  void unsupported(Span where, fmt::format_string<Args...> format, Args&&... args) {
-    std::string message = fmt::format(format, std::forward<Args>(args)...);
-    options_.strict ? add_error(where, std::move(message))
-                    : add_warning(where, std::move(message));
-  }
-  void add_error(Span where, std::string message);
+  void unsupported(Span where, std::string message);
 
   bool has_errors() const { return !errors_.empty(); }
   /// Throws SceneError if there was any error.
@@ -60,7 +45,6 @@ class Reporter {
   const SourceLibrary& sources() const { return sources_; }
 
  private:
-  void add_warning(Span where, std::string message);
   Diagnostic diagnostic(Severity severity, Span where, std::string message) const;
 
   const SourceLibrary& sources_;

@@ -2,6 +2,8 @@
 // Transformations, scopes, and the state between directives.
 #include "tyndall/loader/scene_builder.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "tyndall/loader/nearest_name.h"
@@ -42,11 +44,12 @@ std::string_view attribute_target(std::string_view directive) {
 void SceneBuilder::enter(Phase phase, const Token& directive) {
   directive_ = directive.where;
   if (phase == Phase::before_world && is_in_world_)
-    fail(directive.where, "{} must stand before WorldBegin", directive.text);
+    fail(directive.where, fmt::format("{} must stand before WorldBegin", directive.text));
   if (phase == Phase::in_world && !is_in_world_) {
     is_in_world_ = true;  // say it once
     world_begin_ = directive.where;
-    reporter_.error(directive.where, "{} must stand after WorldBegin", directive.text);
+    reporter_.error(directive.where,
+                    fmt::format("{} must stand after WorldBegin", directive.text));
   }
 }
 
@@ -84,15 +87,16 @@ void SceneBuilder::coordinate_system(const std::string& name) {
 void SceneBuilder::coordinate_system_transform(const std::string& name) {
   const auto found = coordinate_systems_.find(name);
   if (found == coordinate_systems_.end())
-    fail(directive_, "there is no coordinate system named \"{}\"{}", name,
-         did_you_mean(name, names_of(coordinate_systems_)));
+    fail(directive_, fmt::format("there is no coordinate system named \"{}\"{}", name,
+                                 did_you_mean(name, names_of(coordinate_systems_))));
   if (state_.moves_start) state_.ctm = found->second;
 }
 
 void SceneBuilder::active_transform(const std::string& which) {
   if (which != "StartTime" && which != "EndTime" && which != "All")
-    fail(directive_, "ActiveTransform must be StartTime, EndTime or All, got \"{}\"",
-         which);
+    fail(directive_,
+         fmt::format("ActiveTransform must be StartTime, EndTime or All, got \"{}\"",
+                     which));
   if (which == "EndTime")
     reporter_.unsupported(
         directive_,
@@ -113,7 +117,7 @@ void SceneBuilder::save(Scope scope) { saved_.push_back({scope, state_, directiv
 
 void SceneBuilder::restore(Scope scope, std::string_view begin) {
   if (saved_.empty() || saved_.back().scope != scope)
-    fail(directive_, "there is no {} to end here", begin);
+    fail(directive_, fmt::format("there is no {} to end here", begin));
   const Transform ctm = saved_.back().state.ctm;
   if (scope == Scope::transform)
     state_.ctm = ctm;
@@ -139,7 +143,7 @@ void SceneBuilder::end_import() {
 void SceneBuilder::object_begin(const std::string& name) {
   if (is_in_object_) fail(directive_, "an object cannot be defined within an object");
   if (!objects_by_name_.emplace(name, objects_.size()).second)
-    fail(directive_, "there is already an object named \"{}\"", name);
+    fail(directive_, fmt::format("there is already an object named \"{}\"", name));
   save(Scope::object);
   is_in_object_ = true;
   objects_.emplace_back();
@@ -154,8 +158,8 @@ void SceneBuilder::attribute(const std::string& target, std::vector<Parameter> p
   const std::vector<std::string_view> targets(attribute_targets.begin(),
                                               attribute_targets.end());
   if (std::find(targets.begin(), targets.end(), target) == targets.end())
-    fail(directive_, "Attribute must be for one of {}, got \"{}\"", quoted_list(targets),
-         target);
+    fail(directive_, fmt::format("Attribute must be for one of {}, got \"{}\"",
+                                 quoted_list(targets), target));
   std::vector<Parameter>& defaults = state_.defaults[target];
   for (Parameter& parameter : parameters) {
     parameter.is_default = true;
@@ -166,11 +170,11 @@ void SceneBuilder::attribute(const std::string& target, std::vector<Parameter> p
 void SceneBuilder::set_color_space(const std::string& name) {
   const auto space = color_space_by_name(name);
   if (!space)
-    fail(directive_,
-         "there is no color space \"{}\"; there are \"srgb\", \"rec2020\", \"aces2065-1\" "
-         "and "
-         "\"dci-p3\"",
-         name);
+    fail(directive_, fmt::format("there is no color space \"{}\"; there are \"srgb\", "
+                                 "\"rec2020\", \"aces2065-1\" "
+                                 "and "
+                                 "\"dci-p3\"",
+                                 name));
   state_.color_space = *space;
 }
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // From the directives to the scene: names are looked up, omissions found.
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "tyndall/loader/nearest_name.h"
@@ -28,8 +30,8 @@ int SceneBuilder::medium_index(const std::string& name, Span where) {
   const auto found = media_by_name_.find(name);
   if (found != media_by_name_.end()) return found->second;
   if (is_first_report(where))
-    reporter_.error(where, "there is no medium named \"{}\"{}", name,
-                    did_you_mean(name, names_of(media_by_name_)));
+    reporter_.error(where, fmt::format("there is no medium named \"{}\"{}", name,
+                                       did_you_mean(name, names_of(media_by_name_))));
   return no_medium;
 }
 
@@ -38,8 +40,9 @@ Material SceneBuilder::resolved(const MaterialReference& reference) {
   const auto found = materials_.find(reference.name);
   if (found != materials_.end()) return found->second;
   if (is_first_report(reference.where))
-    reporter_.error(reference.where, "there is no material named \"{}\"{}", reference.name,
-                    did_you_mean(reference.name, names_of(materials_)));
+    reporter_.error(reference.where,
+                    fmt::format("there is no material named \"{}\"{}", reference.name,
+                                did_you_mean(reference.name, names_of(materials_))));
   return reference.material;
 }
 
@@ -66,8 +69,10 @@ std::vector<ObjectInstance> SceneBuilder::resolved_instances() {
     if (found != objects_by_name_.end())
       instances.push_back({found->second, instance.world_from_object});
     else
-      reporter_.error(instance.where, "there is no object named \"{}\"{}", instance.object,
-                      did_you_mean(instance.object, names_of(objects_by_name_)));
+      reporter_.error(
+          instance.where,
+          fmt::format("there is no object named \"{}\"{}", instance.object,
+                      did_you_mean(instance.object, names_of(objects_by_name_))));
   }
   return instances;
 }

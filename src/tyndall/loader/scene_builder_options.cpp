@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Directives that stand before WorldBegin.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -65,22 +67,24 @@ void SceneBuilder::integrator(const std::string& type, ParameterSet parameters) 
 void SceneBuilder::accelerator(const std::string& type, ParameterSet parameters) {
   // Embree does it in any case; the choice cannot change the picture.
   if (type != "bvh" && type != "kdtree")
-    fail(directive_, "there is no accelerator \"{}\"; there are \"bvh\" and \"kdtree\"",
-         type);
+    fail(directive_,
+         fmt::format("there is no accelerator \"{}\"; there are \"bvh\" and \"kdtree\"",
+                     type));
   parameters.ignore_all();
 }
 
 void SceneBuilder::option(const std::string& name, const std::string& value) {
   const std::string key = normalized(name);
   if (std::find(option_names.begin(), option_names.end(), key) == option_names.end())
-    fail(directive_, "there is no option \"{}\"{}", name, did_you_mean(key, option_names));
+    fail(directive_,
+         fmt::format("there is no option \"{}\"{}", name, did_you_mean(key, option_names)));
   if (key != "seed") {
-    reporter_.unsupported(directive_, "Option \"{}\" is ignored", name);
+    reporter_.unsupported(directive_, fmt::format("Option \"{}\" is ignored", name));
     return;
   }
   int seed = 0;
   if (parse_number(value, seed) != NumberError::none)
-    fail(directive_, "Option \"seed\" must be an integer, got \"{}\"", value);
+    fail(directive_, fmt::format("Option \"seed\" must be an integer, got \"{}\"", value));
   settings_.seed = static_cast<uint64_t>(static_cast<uint32_t>(seed));
 }
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Directives that describe the world.
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "tyndall/loader/area_light_power.h"
@@ -10,7 +12,7 @@ namespace tyndall::loader {
 
 void SceneBuilder::make_named_medium(const std::string& name, ParameterSet parameters) {
   if (!media_by_name_.emplace(name, no_medium).second)
-    fail(directive_, "there is already a medium named \"{}\"", name);
+    fail(directive_, fmt::format("there is already a medium named \"{}\"", name));
   std::optional<Medium> medium = make_medium(parameters, state_.ctm, files_);
   parameters.report_unknown();
   if (!medium) return;
@@ -24,9 +26,10 @@ void SceneBuilder::medium_interface(const std::string& inside, const std::string
 
 void SceneBuilder::make_named_material(const std::string& name, ParameterSet parameters) {
   if (!materials_.emplace(name, DiffuseBsdf{Rgb(0.5f)}).second)
-    fail(directive_, "there is already a material named \"{}\"", name);
+    fail(directive_, fmt::format("there is already a material named \"{}\"", name));
   if (!parameters.has("type"))
-    fail(directive_, "{}: parameter \"string type\" is missing", parameters.owner());
+    fail(directive_,
+         fmt::format("{}: parameter \"string type\" is missing", parameters.owner()));
   const std::string type = parameters.string("type", "");
   materials_[name] = make_material(type, parameters, textures_, materials_);
   parameters.report_unknown();
@@ -97,8 +100,9 @@ void SceneBuilder::add_surface(const std::string& type, Shape shape,
   const std::string name = fmt::format("{} at {}:{}:{}", type, at.file, at.line, at.column);
   if (state_.area_light && is_in_object_)
     parameters.reporter().unsupported(
-        directive_, "{}: an area light in an object is not supported; it does not shine",
-        parameters.owner());
+        directive_,
+        fmt::format("{}: an area light in an object is not supported; it does not shine",
+                    parameters.owner()));
   for (auto& [part, emission] :
        with_emission(std::move(shape), is_in_object_ ? std::nullopt : state_.area_light)) {
     target_surfaces().push_back({{std::move(part), DiffuseBsdf{}, {}, emission, name},

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tyndall/loader/textures.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <stdexcept>
@@ -46,13 +48,15 @@ const std::vector<std::string_view> varying_types{"imagemap", "bilerp", "checker
 void TextureTable::make(const std::string& name, const std::string& kind,
                         const std::string& type, ParameterSet& parameters) {
   if (kind != "float" && kind != "spectrum")
-    fail(parameters.where(), "{}: a texture is \"float\" or \"spectrum\", got \"{}\"",
-         parameters.owner(), kind);
+    fail(parameters.where(),
+         fmt::format("{}: a texture is \"float\" or \"spectrum\", got \"{}\"",
+                     parameters.owner(), kind));
   const bool is_float = kind == "float";
   auto& table = is_float ? numbers_ : spectra_;
   const auto [entry, is_new] = table.emplace(name, unknown_mean);
   if (!is_new)
-    fail(parameters.where(), "there is already a {} texture named \"{}\"", kind, name);
+    fail(parameters.where(),
+         fmt::format("there is already a {} texture named \"{}\"", kind, name));
   entry->second = mean(type, parameters, is_float);
 }
 
@@ -78,13 +82,14 @@ Rgb TextureTable::mean(const std::string& type, ParameterSet& parameters, bool i
   }
   if (std::find(varying_types.begin(), varying_types.end(), type) == varying_types.end())
     fail(parameters.where(),
-         "{}: there is no texture type \"{}\"; there are \"constant\", \"scale\", "
-         "\"mix\", \"directionmix\", {}",
-         parameters.owner(), type, quoted_list(varying_types));
+         fmt::format(
+             "{}: there is no texture type \"{}\"; there are \"constant\", \"scale\", "
+             "\"mix\", \"directionmix\", {}",
+             parameters.owner(), type, quoted_list(varying_types)));
   parameters.reporter().unsupported(
       parameters.where(),
-      "{}: textures of type \"{}\" are not supported yet, the mean is used",
-      parameters.owner(), type);
+      fmt::format("{}: textures of type \"{}\" are not supported yet, the mean is used",
+                  parameters.owner(), type));
   Rgb result = unknown_mean;
   if (type == "imagemap") result = mean_of_picture(parameters);
   if (type == "checkerboard") result = (get("tex1", 1) + get("tex2", 0)) * 0.5f;
@@ -97,16 +102,16 @@ Rgb TextureTable::mean(const std::string& type, ParameterSet& parameters, bool i
 
 Rgb TextureTable::mean_of_picture(ParameterSet& parameters) const {
   if (!parameters.has("filename"))
-    fail(parameters.where(), "{}: parameter \"string filename\" is missing",
-         parameters.owner());
+    fail(parameters.where(),
+         fmt::format("{}: parameter \"string filename\" is missing", parameters.owner()));
   const Span where = parameters.where("filename");
   const std::string path = files_.find(parameters.string("filename", ""), where);
   Rgb result = unknown_mean;
   try {
     result = mean_color(read_image(path));
   } catch (const std::runtime_error& error) {
-    parameters.reporter().unsupported(where, "{}; a grey of 0.5 takes its place",
-                                      error.what());
+    parameters.reporter().unsupported(
+        where, fmt::format("{}; a grey of 0.5 takes its place", error.what()));
     return result;
   }
   if (parameters.boolean("invert", false)) result = Rgb(1) - result;
@@ -119,16 +124,16 @@ std::optional<Rgb> TextureTable::value(ParameterSet& parameters, std::string_vie
   if (!parameters.has_texture(name)) return std::nullopt;
   const Parameter* parameter = parameters.find(name, {ParameterType::texture});
   if (parameter->strings.size() != 1) {
-    parameters.error(name, "parameter \"{}\" takes one texture, got {}", name,
-                     parameter->strings.size());
+    parameters.error(name, fmt::format("parameter \"{}\" takes one texture, got {}", name,
+                                       parameter->strings.size()));
     return unknown_mean;
   }
   const auto& table = is_float ? numbers_ : spectra_;
   const auto found = table.find(parameter->strings[0]);
   if (found != table.end()) return found->second;
-  parameters.error(name, "there is no {} texture named \"{}\"{}",
-                   is_float ? "float" : "spectrum", parameter->strings[0],
-                   did_you_mean(parameter->strings[0], names_of(table)));
+  parameters.error(name, fmt::format("there is no {} texture named \"{}\"{}",
+                                     is_float ? "float" : "spectrum", parameter->strings[0],
+                                     did_you_mean(parameter->strings[0], names_of(table))));
   return unknown_mean;
 }
 
