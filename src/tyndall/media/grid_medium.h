@@ -55,6 +55,8 @@ class GridMedium {
       return medium_->sigma_t_ * std::min(density(t), majorant_);
     }
 
+    /// Extinction at any distance along the ray, in any order.
+    Rgb sigma_t_anywhere(float t) const { return medium_->sigma_t_ * density(t); }
     float density(float t) const { return medium_->density(ray_.at(t - t_offset_)); }
 
    private:

@@ -29,6 +29,7 @@ class HomogeneousMedium {
     }
     const MediumProperties& at(float /*t*/) const { return properties_; }
     Rgb sigma_t(float /*t*/) const { return properties_.sigma_t(); }
+    Rgb sigma_t_anywhere(float /*t*/) const { return properties_.sigma_t(); }
 
    private:
     MediumProperties properties_;

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tyndall/media/transmittance.h"
+
+#include <cmath>
+
+#include "tyndall/media/ratio_tracking.h"
+#include "tyndall/media/ray_marching.h"
+#include "tyndall/media/tracking.h"
+
+namespace tyndall {
+namespace {
+
+Rgb estimate(const HomogeneousMedium& medium, const Ray& ray, float t_max, RandomStream& /*rng*/,
+             TransmittanceMethod /*method*/) {
+  return exp(-1 * optical_depth(medium.at(ray.o).sigma_t(), t_max));
+}
+
+template <typename M>
+Rgb estimate(const M& medium, const Ray& ray, float t_max, RandomStream& rng,
+             TransmittanceMethod method) {
+  switch (method) {
+    case TransmittanceMethod::ratio_tracking:
+      return ratio_tracking(medium, ray, t_max, rng);
+    case TransmittanceMethod::residual_ratio_tracking:
+      return residual_ratio_tracking(medium, ray, t_max, rng);
+    case TransmittanceMethod::ray_marching:
+      return unbiased_ray_marching(medium, ray, t_max, rng);
+  }
+  return Rgb(0);
+}
+
+}  // namespace
+
+Rgb estimate_transmittance(const Medium& medium, const Ray& ray, float t_max, RandomStream& rng,
+                           TransmittanceMethod method) {
+  return medium.visit([&](const auto& m) { return estimate(m, ray, t_max, rng, method); });
+}
+
+}  // namespace tyndall
