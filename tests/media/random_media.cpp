@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <vector>
 
 namespace tyndall {
 
@@ -93,16 +94,22 @@ Ray random_ray(RandomStream& rng, RayStart start, const Bounds3& bounds,
   return {o_world, normalize(world_from_medium.point(target) - o_world)};
 }
 
-double reference_density(const DensityGrid& grid, const Bounds3& bounds, Vec3 p_medium) {
-  if (!bounds.contains(p_medium)) return 0;
+namespace {
+
+struct Vec3d {
+  double x[3];
+};
+
+// The interpolant at a point of medium space.
+double interpolate(const DensityGrid& grid, const Bounds3& bounds, Vec3d p) {
   const Vec3i n = grid.resolution;
   const int counts[3] = {n.x, n.y, n.z};
   int first[3];
   double f[3];
   for (int axis = 0; axis < 3; ++axis) {
-    const double x = (double{p_medium[axis]} - double{bounds.min[axis]}) /
-                         double{bounds.diagonal()[axis]} * counts[axis] -
-                     0.5;
+    const double min = double{bounds.min[axis]}, max = double{bounds.max[axis]};
+    if (p.x[axis] < min || p.x[axis] > max) return 0;
+    const double x = (p.x[axis] - min) / (max - min) * counts[axis] - 0.5;
     first[axis] = static_cast<int>(std::floor(x));
     f[axis] = x - first[axis];
   }
@@ -120,6 +127,52 @@ double reference_density(const DensityGrid& grid, const Bounds3& bounds, Vec3 p_
     if (!is_inside) continue;
     const int index = (at[2] * n.y + at[1]) * n.x + at[0];
     sum += weight * double{grid.values[static_cast<size_t>(index)]};
+  }
+  return sum;
+}
+
+}  // namespace
+
+double reference_density(const DensityGrid& grid, const Bounds3& bounds, Vec3 p_medium) {
+  return interpolate(grid, bounds, {{p_medium.x, p_medium.y, p_medium.z}});
+}
+
+double reference_optical_depth(const DensityGrid& grid, const Bounds3& bounds,
+                               const Transform& world_from_medium, const Ray& ray,
+                               double t_max) {
+  const Matrix4& m = world_from_medium.inverse_matrix();
+  const int counts[3] = {grid.resolution.x, grid.resolution.y, grid.resolution.z};
+  Vec3d o{}, d{};
+  std::vector<double> t{0, t_max};
+  // The interpolant is cubic along the ray between the planes of the samples and of the
+  // box.
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto& row = m[static_cast<size_t>(axis)];
+    for (int k = 0; k < 3; ++k) {
+      o.x[axis] += double{row[static_cast<size_t>(k)]} * double{ray.o[k]};
+      d.x[axis] += double{row[static_cast<size_t>(k)]} * double{ray.d[k]};
+    }
+    o.x[axis] += double{row[3]};
+    const double min = double{bounds.min[axis]}, size = double{bounds.diagonal()[axis]};
+    const auto add_plane = [&](double x) {
+      const double hit = (min + size * x / counts[axis] - o.x[axis]) / d.x[axis];
+      if (hit > 0 && hit < t_max) t.push_back(hit);
+    };
+    for (int i = -1; i <= counts[axis]; ++i) add_plane(i + 0.5);
+    add_plane(0);
+    add_plane(counts[axis]);
+  }
+  std::sort(t.begin(), t.end());
+  double sum = 0;
+  for (size_t i = 1; i < t.size(); ++i) {
+    const double half = 0.5 * (t[i] - t[i - 1]), middle = 0.5 * (t[i] + t[i - 1]);
+    for (const double x : {-1 / std::sqrt(3.0), 1 / std::sqrt(3.0)}) {
+      const double at = middle + half * x;
+      sum +=
+          half *
+          interpolate(grid, bounds,
+                      {{o.x[0] + at * d.x[0], o.x[1] + at * d.x[1], o.x[2] + at * d.x[2]}});
+    }
   }
   return sum;
 }

@@ -50,4 +50,9 @@ Ray random_ray(RandomStream& rng, RayStart start, const Bounds3& bounds,
 /// The interpolant as its definition says, in medium space.
 double reference_density(const DensityGrid& grid, const Bounds3& bounds, Vec3 p_medium);
 
+/// The exact integral of the interpolant along a ray of world space up to t_max.
+double reference_optical_depth(const DensityGrid& grid, const Bounds3& bounds,
+                               const Transform& world_from_medium, const Ray& ray,
+                               double t_max);
+
 }  // namespace tyndall

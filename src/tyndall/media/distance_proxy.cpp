@@ -16,7 +16,8 @@ void DistanceProxy::add(const MediumSegment& s) {
   for (int c = 0; c < channels_; ++c) {
     const size_t k = static_cast<size_t>(c);
     if (is_full) {
-      const float sum = sigma_[k][i] * (t_max_[i] - t_min_[i]) + s.mean[c] * (s.t_max - s.t_min);
+      const float sum =
+          sigma_[k][i] * (t_max_[i] - t_min_[i]) + s.mean[c] * (s.t_max - s.t_min);
       sigma_[k][i] = sum / (s.t_max - t_min_[i]);
     } else {
       sigma_[k][i] = s.mean[c];
@@ -45,11 +46,13 @@ size_t DistanceProxy::segment_at(float t) const {
 double DistanceProxy::cdf(size_t i, float length) const {
   double sum = 0;
   for (int c = 0; c < channels_; ++c)
-    if (weight_[c] > 0) sum -= double{weight_[c]} * std::expm1(-double{depth(c, i, length)});
+    if (weight_[c] > 0)
+      sum -= double{weight_[c]} * std::expm1(-double{depth(c, i, length)});
   return sum;
 }
 
-// How far into segment i the cdf reaches u: Newton's method, kept within a shrinking bracket.
+// How far into segment i the cdf reaches u: Newton's method, kept within a shrinking
+// bracket.
 float DistanceProxy::solve(size_t i, double u) const {
   float low = 0, high = t_max_[i] - t_min_[i];
   float x = 0;
@@ -58,7 +61,8 @@ float DistanceProxy::solve(size_t i, double u) const {
     (error < 0 ? low : high) = x;
     const double slope = double{pdf_t(t_min_[i] + x)};
     float next = static_cast<float>(double{x} - error / slope);
-    if (!(next >= low && next <= high)) next = std::isinf(high) ? 2 * low + 1 : 0.5f * (low + high);
+    if (!(next >= low && next <= high))
+      next = std::isinf(high) ? 2 * low + 1 : 0.5f * (low + high);
     if (magnitude(next - x) <= 1e-7f * next) return next;
     x = next;
   }
@@ -73,7 +77,8 @@ std::optional<DistanceProxy::Sample> DistanceProxy::sample(float u) const {
     const float target = -std::log1p(-u / weight_.r);
     const auto begin = depth_[0].begin();
     i = static_cast<size_t>(
-        std::upper_bound(begin, begin + static_cast<std::ptrdiff_t>(size_), target) - begin - 1);
+        std::upper_bound(begin, begin + static_cast<std::ptrdiff_t>(size_), target) -
+        begin - 1);
     length = (target - depth_[0][i]) / sigma_[0][i];
   } else {
     size_t count = size_;
@@ -113,14 +118,19 @@ Rgb DistanceProxy::optical_depth(float t) const {
   return spread(sum);
 }
 
-Rgb DistanceProxy::transmittance(float t) const { return exp(-1 * optical_depth(t)); }
+Rgb DistanceProxy::transmittance(float t) const {
+  return exp(-1 * optical_depth(t));
+}
 
 Rgb DistanceProxy::sigma_t(float t) const {
   const size_t i = segment_at(t);
   if (i == size_ || t < t_min_[i]) return Rgb(0);
-  return spread({sigma_[0][i], channels_ == 1 ? 0 : sigma_[1][i], channels_ == 1 ? 0 : sigma_[2][i]});
+  return spread(
+      {sigma_[0][i], channels_ == 1 ? 0 : sigma_[1][i], channels_ == 1 ? 0 : sigma_[2][i]});
 }
 
-float DistanceProxy::opacity() const { return 1 - average(exp(-1 * spread(total_))); }
+float DistanceProxy::opacity() const {
+  return 1 - average(exp(-1 * spread(total_)));
+}
 
 }  // namespace tyndall

@@ -71,7 +71,8 @@ class DistanceProxy {
   int channels_;
   size_t size_ = 0;
   Column t_min_, t_max_;
-  std::array<Column, 3> sigma_;  // sigma_hat of each segment; only the first channel if grey
+  std::array<Column, 3>
+      sigma_;  // sigma_hat of each segment; only the first channel if grey
   std::array<Column, 3> depth_;  // optical depth up to the start of each segment
   Rgb total_;                    // optical depth of the whole ray
   Rgb weight_;                   // 1 / (channels that can collide * opacity of the channel)

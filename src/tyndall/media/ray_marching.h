@@ -34,7 +34,9 @@ class MarchingStrata {
   }
 
   bool is_empty() const { return size_ == 0; }
-  float total() const { return size_ == 0 ? 0 : end_[size_ - 1]; }  ///< integral of intensity
+  float total() const {
+    return size_ == 0 ? 0 : end_[size_ - 1];
+  }  ///< integral of intensity
   float majorant_depth() const { return majorant_depth_; }
 
   /// Unbiased optical depth by one comb of `count` samples shifted by `u`.
@@ -83,13 +85,14 @@ inline SeriesOrder sample_series_order(RandomStream& rng) {
     const float p_next = 2.0f / static_cast<float>(s.order + 1);
     if (rng.next_1d() >= p_next) break;
     ++s.order;
-    s.reach[static_cast<size_t>(s.order)] = s.reach[static_cast<size_t>(s.order - 1)] * p_next;
+    s.reach[static_cast<size_t>(s.order)] =
+        s.reach[static_cast<size_t>(s.order - 1)] * p_next;
   }
   return s;
 }
 
-/// exp(-X) for the mean X of independent unbiased estimates `x`: the power series about each
-/// of them in turn, its terms by U-statistics of the others, averaged [KdPN21].
+/// exp(-X) for the mean X of independent unbiased estimates `x`: the power series about
+/// each of them in turn, its terms by U-statistics of the others, averaged [KdPN21].
 inline float exponential_of_mean(const float* x, const SeriesOrder& series) {
   const int n = series.order;
   double sum = 0;
@@ -122,11 +125,11 @@ inline float exponential_of_mean(const float* x, const SeriesOrder& series) {
 inline int comb_size(float majorant_depth) {
   const float d = majorant_depth;
   const float samples = std::cbrt((0.015f + d) * (0.65f + d) * (60.3f + d)) / 1.32f;
-  return std::clamp(static_cast<int>(samples + 0.5f), 1, 1 << 12);
+  return std::clamp(static_cast<int>(samples + 0.5f), 1, 128);
 }
 
-/// Unbiased transmittance up to t_max by ray marching with jittered combs [KdPN21]: low variance,
-/// but now and then below zero or above one.
+/// Unbiased transmittance up to t_max by ray marching with jittered combs [KdPN21]: low
+/// variance, but now and then below zero or above one.
 template <typename M>
 Rgb unbiased_ray_marching(const M& medium, const Ray& ray, float t_max, RandomStream& rng) {
   auto segments = medium.segments(ray, t_max);

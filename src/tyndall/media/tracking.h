@@ -18,20 +18,22 @@ inline Rgb optical_depth(Rgb sigma, float length) {
 }
 
 /// An exponentially distributed optical depth of mean one.
-inline float sample_optical_depth(RandomStream& rng) { return -std::log(1 - rng.next_1d()); }
+inline float sample_optical_depth(RandomStream& rng) {
+  return -std::log(1 - rng.next_1d());
+}
 
-/// Tentative collisions along a ray: a Poisson process whose rate is the majorant of channel
-/// `hero` [PBRT4, Sec. 11.2]. One exponential is drawn per collision and spent over as many
-/// segments as it lasts.
+/// Tentative collisions along a ray: a Poisson process whose rate is the majorant of
+/// channel `hero` [PBRT4, Sec. 11.2]. One exponential is drawn per collision and spent over
+/// as many segments as it lasts.
 ///
 /// on_collision(float t, const MediumProperties& at_t, Rgb majorant, Rgb T_maj) returns
-/// whether to go on. T_maj is the transmittance of the majorants since the last collision, or
-/// the ray's start, *relative to the hero's*: exactly one in grey media. With it the
+/// whether to go on. T_maj is the transmittance of the majorants since the last collision,
+/// or the ray's start, *relative to the hero's*: exactly one in grey media. With it the
 /// probability of channel c to have made the same walk is the hero's times T_maj[c]
 /// majorant[c] / majorant[hero], as single-sample MIS over channels needs it.
 ///
-/// Returns the relative T_maj of the rest of the ray up to t_max; irrelevant if on_collision
-/// stopped the walk. In homogeneous media every collision is real.
+/// Returns the relative T_maj of the rest of the ray up to t_max; irrelevant if
+/// on_collision stopped the walk. In homogeneous media every collision is real.
 template <typename M, typename F>
 Rgb sample_collisions(const M& medium, const Ray& ray, float t_max, int hero,
                       RandomStream& rng, F&& on_collision) {

@@ -10,8 +10,8 @@
 namespace tyndall {
 namespace {
 
-Rgb estimate(const HomogeneousMedium& medium, const Ray& ray, float t_max, RandomStream& /*rng*/,
-             TransmittanceMethod /*method*/) {
+Rgb estimate(const HomogeneousMedium& medium, const Ray& ray, float t_max,
+             RandomStream& /*rng*/, TransmittanceMethod /*method*/) {
   return exp(-1 * optical_depth(medium.at(ray.o).sigma_t(), t_max));
 }
 
@@ -31,8 +31,8 @@ Rgb estimate(const M& medium, const Ray& ray, float t_max, RandomStream& rng,
 
 }  // namespace
 
-Rgb estimate_transmittance(const Medium& medium, const Ray& ray, float t_max, RandomStream& rng,
-                           TransmittanceMethod method) {
+Rgb estimate_transmittance(const Medium& medium, const Ray& ray, float t_max,
+                           RandomStream& rng, TransmittanceMethod method) {
   return medium.visit([&](const auto& m) { return estimate(m, ray, t_max, rng, method); });
 }
 

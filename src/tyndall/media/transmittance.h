@@ -8,8 +8,8 @@
 
 namespace tyndall {
 
-/// How transmittance is estimated in media that are not homogeneous. All are unbiased in every
-/// channel; the channels share one random walk.
+/// How transmittance is estimated in media that are not homogeneous. All are unbiased in
+/// every channel; the channels share one random walk.
 enum class TransmittanceMethod {
   ratio_tracking,           ///< in [0, 1] [NSJ14]
   residual_ratio_tracking,  ///< never negative [NSJ14]
@@ -18,11 +18,12 @@ enum class TransmittanceMethod {
 
 /// The least variance x time; measured by bench/media_bench.cpp.
 inline constexpr TransmittanceMethod default_transmittance_method =
-    TransmittanceMethod::ratio_tracking;
+    TransmittanceMethod::ray_marching;
 
-/// An unbiased estimate of the transmittance of `medium` along the ray up to t_max, which may
-/// be infinite. Exact in homogeneous media.
-Rgb estimate_transmittance(const Medium& medium, const Ray& ray, float t_max, RandomStream& rng,
+/// An unbiased estimate of the transmittance of `medium` along the ray up to t_max, which
+/// may be infinite. Exact in homogeneous media.
+Rgb estimate_transmittance(const Medium& medium, const Ray& ray, float t_max,
+                           RandomStream& rng,
                            TransmittanceMethod method = default_transmittance_method);
 
 }  // namespace tyndall
