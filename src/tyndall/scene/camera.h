@@ -32,6 +32,7 @@ class PerspectiveCamera {
   Settings settings_;
   Vec2i resolution_;
   Vec3 position_;
+  float tan_half_fov_;
 };
 
 }  // namespace tyndall

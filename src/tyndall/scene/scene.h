@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tyndall/geometry/intersector.h"
+#include "tyndall/scene/light_choice.h"
 #include "tyndall/scene/scene_description.h"
 
 namespace tyndall {
@@ -18,13 +19,6 @@ struct SurfaceHit {
   const Surface* surface;       ///< material, media, emission
   const Light* light;           ///< the area light of the surface, or null
   size_t light_index;           ///< of `light` in Scene::lights()
-};
-
-/// A light drawn from all lights.
-struct SelectedLight {
-  const Light* light;
-  size_t index;
-  float probability;
 };
 
 /// An immutable scene, ready to trace. Safe to use from all threads.
@@ -59,6 +53,10 @@ class Scene {
   float light_probability(size_t index) const;
   /// Radiance from all environments against direction w.
   Rgb environment(Vec3 w) const;
+  /// Indices of the lights that environment() sums.
+  const std::vector<size_t>& environments() const;
+  /// What the scene was built from.
+  const SceneDescription& description() const;
 
   /// Things worth telling the user: lights and cameras in doubtful places, open boundaries.
   const std::vector<std::string>& remarks() const;

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+
+#include "tyndall/integrators/leg_proxy.h"
+#include "tyndall/scene/light_choice.h"
+#include "tyndall/techniques/binned_distance.h"
+#include "tyndall/techniques/double_scattering_distance.h"
+#include "tyndall/techniques/equiangular.h"
+#include "tyndall/techniques/scattering_tables.h"
+
+namespace tyndall {
+
+/// Which connections the vertices of a walk make, beside next event estimation.
+struct ConnectionSettings {
+  bool single = false;     ///< through one further scattering vertex on the leg
+  bool dual = false;       ///< through two: one on the leg, one beyond
+  /// Legs along which the distance to the light varies by less than this factor are left to
+  /// next event estimation: there is nothing to gain.
+  float min_distance_ratio = 1.2f;
+};
+
+/// What all connections of a render share. Immutable.
+class ConnectionContext {
+ public:
+  ConnectionContext(const Scene& scene, const ConnectionSettings& settings);
+
+  const Scene& scene() const { return *scene_; }
+  const ConnectionSettings& settings() const { return settings_; }
+  const LightChoice& light_choice() const { return light_choice_; }
+  /// The tables of a medium's phase function.
+  const ScatteringTables& tables(const Medium& medium) const;
+
+ private:
+  const Scene* scene_;
+  ConnectionSettings settings_;
+  LightChoice light_choice_;
+  std::map<const Medium*, std::shared_ptr<const ScatteringTables>> tables_;
+};
+
+/// One point of each light, fixed for a path: what its techniques aim at. Techniques that share
+/// a path share the points, so that each density can be evaluated by all of them; the light is
+/// then sampled properly from the vertex before it.
+class Pivots {
+ public:
+  Pivots(const Scene& scene, uint64_t key) : scene_(&scene), key_(key) {}
+  /// Empty for lights at infinity.
+  std::optional<Vec3> operator()(size_t light) const;
+
+ private:
+  const Scene* scene_;
+  uint64_t key_;
+};
+
+/// The densities of the scattering vertices that connections put on one leg.
+class ConnectionLeg {
+ public:
+  /// No connections.
+  ConnectionLeg() = default;
+  /// Traces the leg to its end.
+  ConnectionLeg(const ConnectionContext& context, const Pivots& pivots, Leg& leg);
+
+  const Ray& ray() const { return ray_; }
+  const LegProxy& proxy() const { return proxy_; }
+  bool is_empty() const { return !context_ || proxy_.is_empty(); }
+
+  /// Draws a light for connections; those at infinity are never drawn.
+  std::optional<SelectedLight> select_light(float u) const;
+  float light_probability(size_t light) const { return lights_.probability(light); }
+  /// The point that the techniques aim at; empty for lights at infinity.
+  std::optional<Vec3> pivot(size_t light) const { return (*pivots_)(light); }
+
+  /// The last vertex before the light. Null where connections to it would be of no use.
+  using Single = BinnedDistance<EquiangularSampling, 32>;
+  const Single* single(size_t light);
+  /// The vertex before the last.
+  using Double = BinnedDistance<DoubleScatteringDistance, 16>;
+  const Double* dual(size_t light);
+
+ private:
+  struct PerLight {
+    size_t light;
+    std::optional<Single> single;
+    std::optional<Double> dual;
+    bool has_dual = false;
+  };
+  PerLight& aim_at(size_t light);
+  template <int K>
+  DistanceWeights<K> weights(const DistanceTaps<K>& taps, bool with_phase) const;
+
+  const ConnectionContext* context_ = nullptr;
+  const Pivots* pivots_ = nullptr;
+  Ray ray_{};
+  LegProxy proxy_;
+  float t_max_ = 0;  // beyond, the proxy lets no light through
+  LightProbabilities lights_;
+  std::optional<PerLight> cache_;  // of the light last asked for
+};
+
+}  // namespace tyndall

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tyndall/integrators/path.h"
+
+#include <algorithm>
+
+#include "tyndall/media/tracking.h"
+#include "tyndall/sampling/mis.h"
+
+namespace tyndall {
+namespace {
+
+// Paths this short are never ended by chance.
+constexpr int roulette_free_depth = 1;
+
+}  // namespace
+
+Path::Path(const Scene& scene, const PathRules& rules, const Ray& ray, Sampler& sampler)
+    : scene_(scene),
+      rules_(rules),
+      sampler_(sampler),
+      tracking_(sampler.fork()),
+      ray_(ray),
+      medium_(scene.camera_medium()),
+      pivots_(scene, tracking_.next_bits()) {
+  start_.p = ray.o;
+  if (rules.is_chromatic) hero_ = std::min(static_cast<int>(3 * sampler.next_1d()), 2);
+}
+
+bool Path::advance(Leg& leg) {
+  vertex_.reset();
+  for (size_t i = 0; const Leg::Span* span = leg.span(i); ++i) {
+    if (!span->medium) continue;
+    medium_ = span->medium;
+    if (const std::optional<float> t = sample_collision(leg.ray(), *span)) {
+      ++order_;
+      return set_vertex(Vertex(leg.ray().at(*t), -ray_.d, span->medium), *t);
+    }
+    if (is_black(beta_)) return false;
+  }
+  medium_ = leg.end_medium();
+  const SurfaceHit* hit = leg.end();
+  if (!hit) {
+    add_environment();
+    return false;
+  }
+  add_surface_emission(*hit);
+  return set_vertex(Vertex(*hit, -ray_.d, medium_), hit->t);
+}
+
+bool Path::set_vertex(const Vertex& vertex, float t) {
+  vertex_ = vertex;
+  t_vertex_ = t;
+  if (depth_ == 0) {
+    result_.albedo = vertex.albedo();
+    result_.normal = vertex.normal();
+    result_.depth = t;
+  }
+  ++depth_;
+  return depth_ <= rules_.max_depth && order_ <= rules_.orders.max && !is_black(beta_);
+}
+
+// Delta tracking. Returns the distance along the leg of the first real collision.
+std::optional<float> Path::sample_collision(const Ray& ray, const Leg::Span& span) {
+  std::optional<float> t_collision;
+  const Ray rest{ray.at(span.t_min), ray.d};
+  const auto on_collision = [&](float t, const MediumProperties& properties, Rgb majorant,
+                                Rgb relative_transmittance) {
+    if (!is_black(properties.Le))
+      add_volume_emission(properties, relative_transmittance, majorant[hero_]);
+    const Rgb sigma_t = properties.sigma_t();
+    if (tracking_.next_1d() * majorant[hero_] < sigma_t[hero_]) {
+      collide(properties, relative_transmittance);
+      t_collision = span.t_min + t;
+      return false;
+    }
+    const Rgb sigma_n = clamp_negative(majorant - sigma_t);
+    if (!(sigma_n[hero_] > 0)) return true;  // rounding; the next collision is as good
+    if (rules_.is_chromatic) pass(relative_transmittance * sigma_n / sigma_n[hero_]);
+    return true;
+  };
+  const Rgb to_end = span.medium->visit([&](const auto& medium) {
+    return sample_collisions(medium, rest, span.t_max - span.t_min, hero_, tracking_,
+                             on_collision);
+  });
+  if (!t_collision && rules_.is_chromatic) pass(to_end);
+  return t_collision;
+}
+
+void Path::collide(const MediumProperties& properties, Rgb relative_transmittance) {
+  const Rgb sigma_t = properties.sigma_t();
+  const float hero = sigma_t[hero_];
+  beta_ *= relative_transmittance * properties.sigma_s / hero;
+  spectral_ *= relative_transmittance * sigma_t / hero;
+}
+
+// What did not collide: the same factor for the integrand and the density of each channel.
+void Path::pass(Rgb factor) {
+  beta_ *= factor;
+  spectral_ *= factor;
+}
+
+void Path::add_volume_emission(const MediumProperties& properties, Rgb relative_transmittance,
+                               float majorant) {
+  if (!rules_.orders.contains(order_)) return;
+  const Rgb emitted = properties.sigma_a * properties.Le / majorant;
+  // The density of a tentative collision is majorant * transmittance in every channel.
+  result_.L += beta_ * relative_transmittance * emitted /
+               average(spectral_ * relative_transmittance);
+}
+
+void Path::add_surface_emission(const SurfaceHit& hit) {
+  if (!hit.light || !rules_.orders.contains(order_)) return;
+  const auto* area = std::get_if<AreaLight>(&hit.light->variant());
+  const Rgb Le = area->Le(hit.point, -ray_.d);
+  if (is_black(Le)) return;
+  const float light_pdf = start_.is_specular ? 0 : hit.light->pdf(start_.p, hit.point);
+  add(beta_ * Le * hit_weight(hit.light_index, light_pdf));
+}
+
+void Path::add_environment() {
+  if (!rules_.orders.contains(order_)) return;
+  for (const size_t i : scene_.environments()) {
+    const Light& light = scene_.lights()[i];
+    add(beta_ * light.environment(ray_.d) * hit_weight(i, light.pdf(ray_.d)));
+  }
+}
+
+bool Path::scatter() {
+  const std::optional<DirectionSample> s = vertex_->sample(sampler_);
+  if (!s) return false;
+  beta_ *= s->value / s->pdf;
+  eta_scale_ *= sqr(s->eta);
+  start_before_ = start_;
+  start_ = {.p = vertex_->p(),
+            .t = t_vertex_,
+            .pdf_direction = s->pdf,
+            .is_specular = s->is_specular,
+            .is_in_medium = vertex_->is_in_medium()};
+  ray_ = vertex_->spawn(s->wi);
+  medium_ = vertex_->medium_towards(scene_, s->wi);
+  return survives_roulette();
+}
+
+// A path goes on with the probability of what it can still carry; in a medium of albedo one it
+// carries all and is never ended.
+bool Path::survives_roulette() {
+  const float carried = max_component(beta_) / average(spectral_) * eta_scale_;
+  if (depth_ <= roulette_free_depth || carried >= 1) return carried > 0;
+  if (sampler_.next_1d() >= carried) return false;
+  beta_ /= carried;
+  return true;
+}
+
+}  // namespace tyndall

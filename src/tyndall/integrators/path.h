@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "tyndall/image/film.h"
+#include "tyndall/integrators/leg.h"
+#include "tyndall/integrators/render_settings.h"
+#include "tyndall/integrators/tail.h"
+#include "tyndall/integrators/vertex.h"
+#include "tyndall/sampling/sampler.h"
+
+namespace tyndall {
+
+/// What every path of a render shares.
+struct PathRules {
+  int max_depth;
+  ScatteringOrders orders;
+  bool is_chromatic;  ///< some medium differs between the colour channels
+  const ConnectionContext* connections;  ///< null: next event estimation only
+};
+
+/// One camera path in the making: a random walk whose steps are its member functions.
+///
+/// Colour: distances are drawn for one channel, the hero. `spectral_` holds the density with
+/// which each channel would have drawn the same walk, relative to the hero's; dividing by the
+/// mean over channels is single-sample spectral MIS [Wilkie14] over the choice of the hero.
+class Path {
+ public:
+  Path(const Scene& scene, const PathRules& rules, const Ray& ray, Sampler& sampler);
+
+  const Ray& ray() const { return ray_; }
+  const Medium* medium() const { return medium_; }
+
+  /// Connects vertices on the leg, beyond what the walk will choose, to lights: adds the light
+  /// of paths with one and with two more scattering vertices in media.
+  void connect(Leg& leg);
+  /// Goes along the leg to the next scattering vertex; adds what glows on the way. False if the
+  /// path ends.
+  bool advance(Leg& leg);
+  /// Next event estimation: connects the vertex to a light.
+  void estimate_direct();
+  /// Draws the direction of the next leg and plays Russian roulette. False if the path ends.
+  bool scatter();
+
+  const PathSample& result() const { return result_; }
+
+ private:
+  std::optional<float> sample_collision(const Ray& ray, const Leg::Span& span);
+  void collide(const MediumProperties& properties, Rgb relative_transmittance);
+  void pass(Rgb factor);
+  void add_volume_emission(const MediumProperties& properties, Rgb relative_transmittance,
+                           float majorant);
+  void add_surface_emission(const SurfaceHit& hit);
+  void add_environment();
+  bool set_vertex(const Vertex& vertex, float t);
+  bool survives_roulette();
+  void add(Rgb contribution) { result_.L += contribution / average(spectral_); }
+
+  // Light that arrives at a vertex from a light, and the densities of the sample.
+  struct Connection {
+    Rgb light;      // f * T * L, or black
+    LightEnd end;
+  };
+  Connection connect_to(const Vertex& vertex, const SelectedLight& selected);
+  std::optional<SelectedLight> select_light(Vec3 p, float u) const;
+  float light_probability(Vec3 p, size_t light) const;
+  float direct_weight(const LightEnd& end);
+  float hit_weight(size_t light, float light_pdf);
+  bool counts(int more_vertices) const;
+  void connect_single(Leg& leg);
+  void connect_dual(Leg& leg);
+  Rgb leg_transmittance(Leg& leg, float t);
+
+  const Scene& scene_;
+  const PathRules& rules_;
+  Sampler& sampler_;
+  RandomStream tracking_;
+
+  Ray ray_;
+  const Medium* medium_;
+  Rgb beta_{1};
+  Rgb spectral_{1};
+  int hero_ = 0;
+  int depth_ = 0;   // scattering vertices so far
+  int order_ = 0;   // of them, in media
+  float eta_scale_ = 1;
+  std::optional<Vertex> vertex_;
+  float t_vertex_ = 0;           // along the leg to it
+
+  // The last legs, for the densities of techniques that the walk did not use.
+  Pivots pivots_;
+  ConnectionLeg leg_, leg_before_, leg_two_before_;
+  LegStart start_;         // of leg_
+  LegStart start_before_;  // of leg_before_
+  PathSample result_;
+};
+
+}  // namespace tyndall

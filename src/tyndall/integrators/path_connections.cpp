@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+// The connections of a path to lights, and their weights.
+#include <algorithm>
+
+#include "tyndall/integrators/path.h"
+#include "tyndall/sampling/mis.h"
+#include "tyndall/techniques/double_scattering_direction.h"
+
+namespace tyndall {
+namespace {
+
+// Shadow rays stop short of the light by this share of their length, lest they hit it.
+constexpr float shadow_shortening = 1e-4f;
+
+}  // namespace
+
+std::optional<SelectedLight> Path::select_light(Vec3 p, float u) const {
+  if (!rules_.connections) return scene_.select_light(u);
+  return rules_.connections->light_choice().at_point(p).select(scene_.lights(), u);
+}
+
+float Path::light_probability(Vec3 p, size_t light) const {
+  if (!rules_.connections) return scene_.light_probability(light);
+  return rules_.connections->light_choice().at_point(p).probability(light);
+}
+
+// Whether paths with so many more scattering vertices in media are wanted.
+bool Path::counts(int more_vertices) const {
+  return depth_ + more_vertices <= rules_.max_depth &&
+         rules_.orders.contains(order_ + more_vertices);
+}
+
+Path::Connection Path::connect_to(const Vertex& vertex, const SelectedLight& selected) {
+  Connection connection{};
+  const std::optional<LightSample> sample =
+      selected.light->sample(vertex.p(), sampler_.next_2d());
+  if (!sample || !(sample->pdf > 0)) return connection;
+  const Rgb f = vertex.eval(sample->wi);
+  if (is_black(f)) return connection;
+  const Ray shadow = vertex.spawn(sample->wi);
+  const float t_max = sample->distance * (1 - shadow_shortening);
+  if (scene_.is_occluded(shadow, t_max)) return connection;
+  const Medium* medium = vertex.medium_towards(scene_, sample->wi);
+  const Rgb T = transmittance(scene_, shadow, std::min(t_max, far_distance), medium, tracking_);
+  connection.light = f * T * sample->L;
+  connection.end = {.light = selected.index,
+                    .probability = light_probability(vertex.p(), selected.index),
+                    .pdf = sample->pdf,
+                    .pdf_direction = sample->is_delta ? 0 : vertex.pdf(sample->wi)};
+  return connection;
+}
+
+void Path::estimate_direct() {
+  if (vertex_->is_specular()) return;
+  const std::optional<SelectedLight> selected =
+      select_light(vertex_->p(), sampler_.next_1d());
+  if (!selected || !counts(0)) return;
+  const Connection connection = connect_to(*vertex_, *selected);
+  if (is_black(connection.light)) return;
+  const float weight = direct_weight(connection.end);
+  add(beta_ * connection.light * (weight / (selected->probability * connection.end.pdf)));
+}
+
+// Of next event estimation at the current vertex.
+float Path::direct_weight(const LightEnd& end) {
+  if (!rules_.connections || !vertex_->is_in_medium())
+    return balance_heuristic(end.probability * end.pdf, end.pdf_direction);
+  const TailDensities densities =
+      tail_densities(*rules_.connections, leg_before_, start_, leg_, t_vertex_, end);
+  return densities.weight(densities.direct);
+}
+
+// Of the walk that, from start_, has hit a light where the light's own sampling has the density
+// `light_pdf`.
+float Path::hit_weight(size_t light, float light_pdf) {
+  if (start_.is_specular) return 1;
+  const LightEnd end{.light = light,
+                     .probability = light_probability(start_.p, light),
+                     .pdf = light_pdf,
+                     .pdf_direction = start_.pdf_direction};
+  if (!rules_.connections || !start_.is_in_medium)
+    return balance_heuristic(end.pdf_direction, end.probability * end.pdf);
+  const TailDensities densities = tail_densities(*rules_.connections, leg_two_before_,
+                                                 start_before_, leg_before_, start_.t, end);
+  return densities.weight(densities.hit);
+}
+
+void Path::connect(Leg& leg) {
+  if (!rules_.connections) return;
+  leg_two_before_ = std::move(leg_before_);
+  leg_before_ = std::move(leg_);
+  leg_ = ConnectionLeg(*rules_.connections, pivots_, leg);
+  if (leg_.is_empty()) return;
+  if (counts(1)) connect_single(leg);
+  if (counts(2) && rules_.connections->settings().dual) connect_dual(leg);
+}
+
+Rgb Path::leg_transmittance(Leg& leg, float t) {
+  Rgb product(1);
+  for (size_t i = 0; const Leg::Span* span = leg.span(i); ++i) {
+    if (span->t_min >= t) break;
+    if (!span->medium) continue;
+    const Ray rest{leg.ray().at(span->t_min), leg.ray().d};
+    product *= estimate_span(*span->medium, rest,
+                                      std::min(t, span->t_max) - span->t_min, tracking_);
+  }
+  return product;
+}
+
+void Path::connect_single(Leg& leg) {
+  const std::optional<SelectedLight> selected = leg_.select_light(sampler_.next_1d());
+  const float u = sampler_.next_1d();
+  if (!selected) return;
+  const ConnectionLeg::Single* single = leg_.single(selected->index);
+  if (!single) return;
+  const std::optional<DistanceSample> s = single->sample(u);
+  const Medium* medium = s ? leg_.proxy().medium_at(s->t) : nullptr;
+  if (!medium) return;
+  const Vertex last(leg.ray().at(s->t), -leg.ray().d, medium);
+  const Connection connection = connect_to(last, *selected);
+  if (is_black(connection.light)) return;
+  const TailDensities densities =
+      tail_densities(*rules_.connections, leg_before_, start_, leg_, s->t, connection.end);
+  const Rgb value =
+      leg_transmittance(leg, s->t) * medium->at(last.p()).sigma_s * connection.light;
+  add(beta_ * value *
+      (densities.weight(densities.single) /
+       (s->pdf_t * selected->probability * connection.end.pdf)));
+}
+
+void Path::connect_dual(Leg& leg) {
+  const std::optional<SelectedLight> selected = leg_.select_light(sampler_.next_1d());
+  const float u_first = sampler_.next_1d(), u_last = sampler_.next_1d();
+  const Vec2 u_direction = sampler_.next_2d();
+  const ConnectionLeg::Double* dual = selected ? leg_.dual(selected->index) : nullptr;
+  if (!dual) return;
+  const std::optional<DistanceSample> first = dual->sample(u_first);
+  const Medium* medium = first ? leg_.proxy().medium_at(first->t) : nullptr;
+  if (!medium) return;
+  const Vertex x(leg.ray().at(first->t), -leg.ray().d, medium);
+  const DoubleScatteringDirection technique(rules_.connections->tables(*medium), x.p(),
+                                            leg.ray().d, *leg_.pivot(selected->index));
+  const std::optional<DoubleDirectionSample> direction = technique.sample(u_direction);
+  if (!direction) return;
+
+  Leg next(scene_, x.spawn(direction->w), medium);
+  ConnectionLeg next_leg(*rules_.connections, pivots_, next);
+  const ConnectionLeg::Single* single = next_leg.single(selected->index);
+  const std::optional<DistanceSample> second =
+      single ? single->sample(u_last) : std::optional<DistanceSample>();
+  const Medium* last_medium = second ? next_leg.proxy().medium_at(second->t) : nullptr;
+  if (!last_medium) return;
+  const Vertex y(next.ray().at(second->t), -direction->w, last_medium);
+  const Connection connection = connect_to(y, *selected);
+  if (is_black(connection.light)) return;
+
+  const LegStart start{.p = x.p(),
+                       .t = first->t,
+                       .pdf_direction = x.pdf(direction->w),
+                       .is_specular = false,
+                       .is_in_medium = true};
+  const TailDensities densities = tail_densities(*rules_.connections, leg_, start, next_leg,
+                                                 second->t, connection.end);
+  const Rgb scattered = leg_transmittance(leg, first->t) * medium->at(x.p()).sigma_s *
+                        x.eval(direction->w) * leg_transmittance(next, second->t) *
+                        last_medium->at(y.p()).sigma_s;
+  const float pdf = first->pdf_t * direction->pdf * second->pdf_t * selected->probability *
+                    connection.end.pdf;
+  add(beta_ * scattered * connection.light * (densities.weight(densities.dual) / pdf));
+}
+
+}  // namespace tyndall

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "tyndall/integrators/integrator.h"
+#include "tyndall/integrators/path.h"
+
+namespace tyndall {
+
+/// Unidirectional volumetric path tracing with next event estimation and, where `connections`
+/// asks for them, joint connections through further vertices: the integrators `volpath` (none),
+/// `equiangular` (single) and `jis` (single and dual).
+class PathTracer : public Integrator {
+ public:
+  PathTracer(const Scene& scene, const RenderSettings& settings,
+             const ConnectionSettings& connections);
+
+  PathSample Li(const Ray& ray, Sampler& sampler) const override;
+
+ private:
+  const Scene& scene_;
+  std::optional<ConnectionContext> connections_;
+  PathRules rules_;
+};
+
+}  // namespace tyndall

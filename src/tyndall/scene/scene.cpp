@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tyndall/scene/scene.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "tyndall/sampling/tabulated.h"
+#include "tyndall/scene/camera_medium.h"
+
+namespace tyndall {
+namespace {
+
+constexpr size_t no_light = std::numeric_limits<size_t>::max();
+
+bool is_boundary(const Surface& surface) {
+  return std::holds_alternative<InterfaceBsdf>(surface.material);
+}
+
+Intersector::Group make_group(const std::vector<Surface>& surfaces) {
+  Intersector::Group group;
+  group.reserve(surfaces.size());
+  for (const Surface& surface : surfaces)
+    group.push_back({&surface.shape, is_boundary(surface)});
+  return group;
+}
+
+std::vector<Intersector::Group> make_groups(const SceneDescription& description) {
+  std::vector<Intersector::Group> groups{make_group(description.surfaces)};
+  for (const std::vector<Surface>& object : description.objects)
+    groups.push_back(make_group(object));
+  return groups;
+}
+
+std::vector<Intersector::Instance> make_instances(const SceneDescription& description) {
+  std::vector<Intersector::Instance> instances;
+  for (const ObjectInstance& instance : description.instances)
+    instances.push_back(
+        {static_cast<uint32_t>(instance.object + 1), instance.world_from_object});
+  return instances;
+}
+
+bool any_boundary(const SceneDescription& description) {
+  bool any = std::ranges::any_of(description.surfaces, is_boundary);
+  for (const std::vector<Surface>& object : description.objects)
+    any = any || std::ranges::any_of(object, is_boundary);
+  return any;
+}
+
+}  // namespace
+
+class Scene::Impl {
+ public:
+  explicit Impl(SceneDescription d)
+      : description(std::move(d)),
+        intersector(make_groups(description), make_instances(description)),
+        has_boundaries(any_boundary(description)),
+        bounds(intersector.bounds()),
+        lights(description.lights) {
+    bounds.extend(description.camera.position());
+    add_area_lights();
+    measure_power();
+  }
+
+  std::optional<SurfaceHit> resolve(const std::optional<SceneHit>& hit) const {
+    if (!hit) return std::nullopt;
+    const bool in_world = hit->group == 0;
+    const std::vector<Surface>& surfaces =
+        in_world ? description.surfaces : description.objects[hit->group - 1];
+    const size_t light = in_world ? light_of_surface[hit->shape] : no_light;
+    return SurfaceHit{.t = hit->t,
+                      .point = hit->point,
+                      .surface = &surfaces[hit->shape],
+                      .light = light == no_light ? nullptr : &lights[light],
+                      .light_index = light};
+  }
+
+  const Medium* medium(int index) const {
+    return index == no_medium ? nullptr : &description.media[static_cast<size_t>(index)];
+  }
+
+  SceneDescription description;
+  Intersector intersector;
+  bool has_boundaries;
+  Bounds3 bounds;
+  std::vector<Light> lights;
+  std::vector<size_t> environments;      // indices of lights that rays can escape to
+  std::vector<size_t> light_of_surface;  // or no_light
+  DiscreteDistribution light_power;
+  const Medium* camera_medium = nullptr;
+  std::vector<std::string> remarks;
+
+ private:
+  void add_area_lights() {
+    light_of_surface.assign(description.surfaces.size(), no_light);
+    for (size_t i = 0; i < description.surfaces.size(); ++i) {
+      const Surface& surface = description.surfaces[i];
+      if (!surface.emission || is_black(surface.emission->L)) continue;
+      light_of_surface[i] = lights.size();
+      lights.emplace_back(AreaLight{.shape = &surface.shape,
+                                    .L = surface.emission->L,
+                                    .two_sided = surface.emission->two_sided});
+    }
+    for (const std::vector<Surface>& object : description.objects)
+      for (const Surface& surface : object)
+        if (surface.emission)
+          remarks.push_back(surface.name +
+                            ": area lights inside objects are not supported: it emits nothing");
+  }
+
+  void measure_power() {
+    std::vector<float> power;
+    for (size_t i = 0; i < lights.size(); ++i) {
+      power.push_back(luminance(lights[i].power(bounds.radius())));
+      if (lights[i].is_environment()) environments.push_back(i);
+    }
+    light_power = DiscreteDistribution(power);
+  }
+};
+
+Scene::Scene(SceneDescription description)
+    : impl_(std::make_unique<Impl>(std::move(description))) {
+  const CameraMediumFinding finding = find_camera_medium(*this, impl_->description.camera_medium);
+  impl_->camera_medium = impl_->medium(finding.medium);
+  if (!finding.remark.empty()) impl_->remarks.push_back(finding.remark);
+}
+
+Scene::~Scene() = default;
+
+const PerspectiveCamera& Scene::camera() const { return impl_->description.camera; }
+const Medium* Scene::camera_medium() const { return impl_->camera_medium; }
+const std::vector<Light>& Scene::lights() const { return impl_->lights; }
+Bounds3 Scene::bounds() const { return impl_->bounds; }
+bool Scene::has_boundaries() const { return impl_->has_boundaries; }
+const std::vector<std::string>& Scene::remarks() const { return impl_->remarks; }
+const SceneDescription& Scene::description() const { return impl_->description; }
+
+std::optional<SurfaceHit> Scene::intersect(const Ray& ray, float t_max) const {
+  return impl_->resolve(impl_->intersector.intersect(ray, t_max, RayMask::all));
+}
+
+std::optional<SurfaceHit> Scene::intersect_boundary(const Ray& ray, float t_max) const {
+  if (!impl_->has_boundaries) return std::nullopt;
+  return impl_->resolve(impl_->intersector.intersect(ray, t_max, RayMask::boundary));
+}
+
+bool Scene::is_occluded(const Ray& ray, float t_max) const {
+  return impl_->intersector.is_occluded(ray, t_max, RayMask::opaque);
+}
+
+const Medium* Scene::medium_across(const SurfaceHit& hit, Vec3 d, const Medium* current) const {
+  const MediumInterface& media = hit.surface->media;
+  if (!media.is_stated || !media.is_transition()) return current;
+  return impl_->medium(dot(d, hit.point.ng) > 0 ? media.outside : media.inside);
+}
+
+std::optional<SelectedLight> Scene::select_light(float u) const {
+  if (impl_->lights.empty()) return std::nullopt;
+  const DiscreteSample s = impl_->light_power.sample(u);
+  if (!(s.probability > 0)) return std::nullopt;
+  return SelectedLight{&impl_->lights[s.index], s.index, s.probability};
+}
+
+float Scene::light_probability(size_t index) const {
+  return impl_->light_power.probability(index);
+}
+
+Rgb Scene::environment(Vec3 w) const {
+  Rgb sum;
+  for (const size_t i : impl_->environments) sum += impl_->lights[i].environment(w);
+  return sum;
+}
+
+const std::vector<size_t>& Scene::environments() const { return impl_->environments; }
+
+}  // namespace tyndall

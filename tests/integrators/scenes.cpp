@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenes.h"
+
+namespace tyndall::test {
+
+Medium grey_fog(float sigma_s, float sigma_a, float g) {
+  const MediumProperties properties{Rgb(sigma_a), Rgb(sigma_s), Rgb(0)};
+  return Medium(HomogeneousMedium(properties, g == 0 ? PhaseFunction(IsotropicPhase{})
+                                                     : PhaseFunction(HenyeyGreenstein(g))));
+}
+
+Medium constant_grid(float sigma_s, float sigma_a, float g, float size,
+                     const Transform& world_from_medium) {
+  // The interpolant falls to zero at the border, so the grid is larger than what is used of it.
+  constexpr int n = 12;
+  DensityGrid grid{{n, n, n}, std::vector<float>(n * n * n, 1.0f)};
+  const float half = size * n / (n - 4);
+  const MediumProperties properties{Rgb(sigma_a), Rgb(sigma_s), Rgb(0)};
+  return Medium(GridMedium(std::move(grid), Bounds3{{-half, -half, -half}, {half, half, half}},
+                           world_from_medium, properties,
+                           g == 0 ? PhaseFunction(IsotropicPhase{})
+                                  : PhaseFunction(HenyeyGreenstein(g))));
+}
+
+Surface boundary_sphere(float radius, Vec3 center, int inside, int outside) {
+  return {.shape = Sphere{.world_from_sphere = Transform::translate(center),
+                          .radius = radius,
+                          .z_min = -radius,
+                          .z_max = radius,
+                          .phi_max = 2 * pi,
+                          .flip_normals = false},
+          .material = InterfaceBsdf{},
+          .media = {.inside = inside, .outside = outside, .is_stated = true},
+          .emission = std::nullopt,
+          .name = "boundary sphere"};
+}
+
+Surface diffuse_disk(float z, float radius, float reflectance) {
+  return {.shape = Disk{.world_from_disk = Transform(),
+                        .height = z,
+                        .radius = radius,
+                        .inner_radius = 0,
+                        .phi_max = 2 * pi,
+                        .flip_normals = true},
+          .material = DiffuseBsdf{Rgb(reflectance)},
+          .media = {},
+          .emission = std::nullopt,
+          .name = "disk"};
+}
+
+Surface boundary_box(float size, int inside, int outside) {
+  std::vector<Vec3> positions;
+  for (int i = 0; i < 8; ++i)
+    positions.push_back({i & 1 ? size : -size, i & 2 ? size : -size, i & 4 ? size : -size});
+  std::vector<Vec3i> triangles{{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                               {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  return {.shape = TriangleMesh(std::move(positions), std::move(triangles), {}, {}, false),
+          .material = InterfaceBsdf{},
+          .media = {.inside = inside, .outside = outside, .is_stated = true},
+          .emission = std::nullopt,
+          .name = "boundary box"};
+}
+
+PerspectiveCamera camera(Vec3 eye, Vec3 at, float fov, Vec2i resolution) {
+  PerspectiveCamera::Settings s;
+  s.world_from_camera = Transform::look_at(eye, at, {0, 1, 0})->inverse();
+  s.fov = fov;
+  return {s, resolution};
+}
+
+RenderSettings settings(const std::string& integrator, int max_depth, ScatteringOrders orders) {
+  RenderSettings s;
+  s.integrator = integrator;
+  s.max_depth = max_depth;
+  s.orders = orders;
+  s.resolution = {16, 16};
+  s.crop_max = {16, 16};
+  s.sampler = SamplerKind::independent;
+  return s;
+}
+
+RunningMoments estimate(const Scene& scene, const RenderSettings& settings, int count,
+                        const std::function<Ray(Sampler&)>& make_ray) {
+  const std::unique_ptr<Integrator> integrator = make_integrator(scene, settings);
+  RunningMoments moments;
+  uint32_t allowed = 0;
+  for (uint32_t i = 0; i < static_cast<uint32_t>(count); ++i) {
+    if (i >= allowed) allowed = integrator->prepare(i);
+    Sampler sampler(settings.sampler, settings.seed, {0, 0}, i);
+    const Ray ray = make_ray(sampler);
+    moments.add(double{integrator->Li(ray, sampler).L.r});
+  }
+  return moments;
+}
+
+}  // namespace tyndall::test
