@@ -13,6 +13,7 @@ using Function = std::function<double(double, double)>;
 constexpr int min_depth =
     2;  // a jump that clips a corner between the nodes shows only when refined
 constexpr int max_depth = 24;
+constexpr int max_cells = 20'000;
 constexpr double absolute_tolerance = 1e-8;
 constexpr double relative_tolerance = 1e-4;  // above the rounding of float densities
 
@@ -30,7 +31,9 @@ double gauss(const Function& f, const Cell& c) {
 }
 
 // Asks for agreement on two levels in turn: at a jump one may agree by accident.
-double refine(const Function& f, const Cell& c, double coarse, int depth, bool agreed) {
+// Gives up when the budget of cells is spent: on what cannot be integrated, such as 1 / x.
+double refine(const Function& f, const Cell& c, double coarse, int depth, bool agreed,
+              int& budget) {
   const double x = 0.5 * (c.x_min + c.x_max), y = 0.5 * (c.y_min + c.y_max);
   const std::array<Cell, 4> quarters{{{c.x_min, x, c.y_min, y},
                                       {x, c.x_max, c.y_min, y},
@@ -42,16 +45,18 @@ double refine(const Function& f, const Cell& c, double coarse, int depth, bool a
   const double tolerance =
       std::max(absolute_tolerance, relative_tolerance * std::abs(fine));
   const bool agrees = !(std::abs(fine - coarse) > tolerance);
-  if (depth >= max_depth || (agreed && agrees)) return fine;
+  if (depth >= max_depth || --budget < 0 || (agreed && agrees)) return fine;
   double sum = 0;
-  for (size_t i = 0; i < 4; ++i) sum += refine(f, quarters[i], parts[i], depth + 1, agrees);
+  for (size_t i = 0; i < 4; ++i)
+    sum += refine(f, quarters[i], parts[i], depth + 1, agrees, budget);
   return sum;
 }
 
 }  // namespace
 
 double cell_integral(const Function& f, const Cell& cell) {
-  return refine(f, cell, gauss(f, cell), 0, false);
+  int budget = max_cells;
+  return refine(f, cell, gauss(f, cell), 0, false, budget);
 }
 
 }  // namespace tyndall

@@ -9,9 +9,7 @@
 
 namespace tyndall {
 
-double sidak(double alpha, int tests) {
-  return -std::expm1(std::log1p(-alpha) / tests);
-}
+double sidak(double alpha, int tests) { return -std::expm1(std::log1p(-alpha) / tests); }
 
 double z_p_value(double mean, double standard_error, double expected) {
   if (!(standard_error > 0)) return mean == expected ? 1 : 0;

@@ -38,6 +38,11 @@ TEST(CellIntegral, FindsPeaksAndJumps) {
   EXPECT_NEAR(4 * sum, 0.3 * std::numbers::pi, 5e-5);
 }
 
+TEST(CellIntegral, EndsOnWhatHasNoIntegral) {
+  const auto pole = [](double x, double y) { return 1 / std::abs(x - 0.713 * y); };
+  EXPECT_GT(cell_integral(pole, {0, 1, 0, 1}), 5);
+}
+
 TEST(StatisticalTests, SidakSplitsTheLevel) {
   EXPECT_NEAR(1 - std::pow(1 - sidak(0.01, 50), 50), 0.01, 1e-12);
 }
