@@ -56,6 +56,9 @@ std::optional<Matrix4> invert(const Matrix4& m) {
 Transform::Transform() : m_(identity), inv_(identity) {}
 
 std::optional<Transform> Transform::from_matrix(const Matrix4& m) {
+  for (const auto& row : m)
+    for (const float x : row)
+      if (!std::isfinite(x)) return std::nullopt;
   const std::optional<Matrix4> inv = invert(m);
   if (!inv) return std::nullopt;
   return Transform(m, *inv);
