@@ -98,6 +98,15 @@ TEST(Transform, RefusesMatricesWithoutInverse) {
   EXPECT_FALSE(Transform::from_matrix(m));
 }
 
+TEST(Transform, AcceptsVerySmallAndFarThings) {
+  const Transform t =
+      Transform::translate({1e6f, 0, 0}) * Transform::scale({1e-6f, 1e-3f, 1e5f});
+  const auto again = Transform::from_matrix(t.matrix());
+  ASSERT_TRUE(again);
+  EXPECT_NEAR(again->inverse().vector({1e-6f, 0, 0}).x, 1, 1e-5f);
+  EXPECT_NEAR(again->inverse().vector({0, 0, 1e5f}).z, 1, 1e-5f);
+}
+
 TEST(Transform, DividesPointsByW) {
   Matrix4 m = Transform().matrix();
   m[3] = {0, 0, 1, 0};  // w = z

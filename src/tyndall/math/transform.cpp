@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tyndall/math/transform.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -20,19 +21,26 @@ Matrix4 multiply(const Matrix4& a, const Matrix4& b) {
   return c;
 }
 
-// Gauss-Jordan elimination with partial pivoting, in double precision.
+// The size of a row without its translation, which may be larger by many orders.
+double row_scale(const std::array<float, 4>& row) {
+  const float linear = std::max({std::abs(row[0]), std::abs(row[1]), std::abs(row[2])});
+  return double{linear > 0 ? linear : 1.0f};
+}
+
+// Gauss-Jordan elimination with partial pivoting, in double precision. Rows are brought to
+// one size first, so that a pivot of nothing but rounding can be told from a small one.
 std::optional<Matrix4> invert(const Matrix4& m) {
   std::array<std::array<double, 8>, 4> a{};
   for (size_t i = 0; i < 4; ++i) {
-    for (size_t j = 0; j < 4; ++j) a[i][j] = m[i][j];
-    a[i][4 + i] = 1;
+    const double scale = 1 / row_scale(m[i]);
+    for (size_t j = 0; j < 4; ++j) a[i][j] = double{m[i][j]} * scale;
+    a[i][4 + i] = scale;
   }
   for (size_t column = 0; column < 4; ++column) {
     size_t pivot = column;
     for (size_t i = column + 1; i < 4; ++i)
       if (std::abs(a[i][column]) > std::abs(a[pivot][column])) pivot = i;
-    if (!(std::abs(a[pivot][column]) > 0) || !std::isfinite(a[pivot][column]))
-      return std::nullopt;
+    if (!(std::abs(a[pivot][column]) > 1e-14)) return std::nullopt;
     std::swap(a[pivot], a[column]);
     const double inv = 1 / a[column][column];
     for (double& x : a[column]) x *= inv;
@@ -87,13 +95,12 @@ Transform Transform::rotate(float angle, Vec3 axis) {
   const Vec3 a = normalize(axis);
   const float s = std::sin(radians(angle)), c = std::cos(radians(angle));
   Matrix4 m = identity, inv = identity;
-  const Vec3 rows[3] = {
-      {a.x * a.x + (1 - a.x * a.x) * c, a.x * a.y * (1 - c) - a.z * s,
-       a.x * a.z * (1 - c) + a.y * s},
-      {a.x * a.y * (1 - c) + a.z * s, a.y * a.y + (1 - a.y * a.y) * c,
-       a.y * a.z * (1 - c) - a.x * s},
-      {a.x * a.z * (1 - c) - a.y * s, a.y * a.z * (1 - c) + a.x * s,
-       a.z * a.z + (1 - a.z * a.z) * c}};
+  const Vec3 rows[3] = {{a.x * a.x + (1 - a.x * a.x) * c, a.x * a.y * (1 - c) - a.z * s,
+                         a.x * a.z * (1 - c) + a.y * s},
+                        {a.x * a.y * (1 - c) + a.z * s, a.y * a.y + (1 - a.y * a.y) * c,
+                         a.y * a.z * (1 - c) - a.x * s},
+                        {a.x * a.z * (1 - c) - a.y * s, a.y * a.z * (1 - c) + a.x * s,
+                         a.z * a.z + (1 - a.z * a.z) * c}};
   for (size_t i = 0; i < 3; ++i)
     for (size_t j = 0; j < 3; ++j) {
       m[i][j] = rows[i][static_cast<int>(j)];
@@ -129,7 +136,9 @@ Vec3 Transform::point(Vec3 p) const {
 }
 
 Vec3 Transform::vector(Vec3 v) const {
-  const auto row = [&](size_t i) { return m_[i][0] * v.x + m_[i][1] * v.y + m_[i][2] * v.z; };
+  const auto row = [&](size_t i) {
+    return m_[i][0] * v.x + m_[i][1] * v.y + m_[i][2] * v.z;
+  };
   return {row(0), row(1), row(2)};
 }
 
