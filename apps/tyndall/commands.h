@@ -11,5 +11,6 @@ namespace tyndall::app {
 void add_compare_command(Program& program);
 void add_convert_command(Program& program);
 void add_render_command(Program& program);
+void add_report_command(Program& program);
 
 }  // namespace tyndall::app

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "apps/tyndall/exit_code.h"
+#include "apps/tyndall/metrics_json.h"
 #include "apps/tyndall/text_table.h"
 #include "tyndall/image/io.h"
 
@@ -80,36 +81,11 @@ std::string remarks(const ComparisonReport& report) {
   return text;
 }
 
-nlohmann::json bias_object(const BiasTest& bias) {
-  return {{"mean_difference", bias.mean_difference},
-          {"standard_error", bias.standard_error},
-          {"p_value", bias.p_value},
-          {"tiles", bias.tiles},
-          {"rejected_tiles", bias.rejected_tiles},
-          {"smallest_tile_p_value", bias.smallest_tile_p_value},
-          {"reference_has_variance", bias.reference_has_variance}};
-}
-
-nlohmann::json optional_json(const std::optional<double>& x) {
-  return x ? nlohmann::json(*x) : nlohmann::json();
-}
-
 nlohmann::json comparison_object(const Comparison& c) {
-  const ImageErrors& e = c.errors;
-  return {{"path", c.path},
-          {"mse", e.mse},
-          {"rel_mse", e.rel_mse},
-          {"rel_mse_trimmed", e.rel_mse_trimmed},
-          {"smape", e.smape},
-          {"psnr", e.psnr},
-          {"ldr_flip", optional_json(e.ldr_flip)},
-          {"hdr_flip", optional_json(e.hdr_flip)},
-          {"percentile_99_9", e.percentile_99_9},
-          {"mean", e.mean},
-          {"reference_mean", e.reference_mean},
-          {"not_finite", e.not_finite},
-          {"reference_not_finite", e.reference_not_finite},
-          {"bias", c.bias ? bias_object(*c.bias) : nlohmann::json()}};
+  nlohmann::json object = to_json(c.errors);
+  object["path"] = c.path;
+  object["bias"] = to_json(c.bias);
+  return object;
 }
 
 }  // namespace

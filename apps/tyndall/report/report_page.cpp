@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tyndall/report/report_page.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "apps/tyndall/report/error_curve.h"
+#include "apps/tyndall/report/html_text.h"
+#include "apps/tyndall/report/report_assets.h"
+#include "apps/tyndall/report/scene_pictures.h"
+#include "apps/tyndall/report/scene_tables.h"
+#include "tyndall/image/codec.h"
+
+namespace tyndall::app {
+
+namespace {
+
+/// A scene with its pictures and the results that it is part of.
+struct PageScene {
+  const SceneResults* scene;
+  const Results* results;
+  ScenePictures pictures;
+};
+
+std::string plots_html(const SceneResults& scene, double time_limit) {
+  std::vector<ErrorCurve> time, samples;
+  for (const Method& method : scene.methods) {
+    time.push_back(error_curve(method, CurveAxis::seconds));
+    samples.push_back(error_curve(method, CurveAxis::samples_per_pixel));
+  }
+  return "<div class=\"plots\">" +
+         svg_plot(time, "seconds of rendering, learning included", time_limit) +
+         svg_plot(samples, "samples per pixel", 0) + "</div>\n";
+}
+
+/// The exposure at which the reference's mean becomes a middle grey [stops].
+float middle_exposure(const Image& reference) {
+  const RgbPlanes planes = reference.rgb_planes();
+  double sum = 0;
+  size_t count = 0;
+  for (size_t i = 0; i < reference.pixel_count(); ++i) {
+    const float y = luminance(planes[i]);
+    if (!std::isfinite(y)) continue;
+    sum += std::min(double{y}, 1e6);
+    ++count;
+  }
+  return sum > 0 ? static_cast<float>(std::log2(0.18 * static_cast<double>(count) / sum))
+                 : 0;
+}
+
+std::string insets_html(const ScenePictures& pictures) {
+  const ToneMapping tone{.exposure = middle_exposure(pictures.pictures.front().image)};
+  std::string html = fmt::format(
+      "<div class=\"wide\"><table class=\"insets\" style=\"--columns: {}\"><tr>",
+      pictures.pictures.size());
+  for (const ScenePicture& picture : pictures.pictures) {
+    html += "<th>" + escape_html(picture.name) + "</th>";
+  }
+  html += "</tr>\n";
+  for (const Inset& inset : pictures.insets) {
+    html += "<tr>";
+    for (const ScenePicture& picture : pictures.pictures) {
+      html += fmt::format(
+          "<td><img data-inset=\"{0},{1},{2}\" width=\"{2}\" height=\"{2}\" alt=\"{3} at "
+          "{0}, "
+          "{1}\" src=\"{4}\"></td>",
+          inset.x, inset.y, inset.size, escape_html(picture.name),
+          png_url(encode_png(cut_out(picture.image, inset), tone)));
+    }
+    html += "</tr>\n";
+  }
+  return html + "</table></div>\n<p class=\"quiet\">A click shows the place above.</p>\n";
+}
+
+std::string scene_html(const PageScene& page, int number) {
+  const SceneResults& scene = *page.scene;
+  std::string html = fmt::format("<section id=\"scene-{0}\">\n<h2>{1}</h2>\n", number,
+                                 escape_html(scene.name));
+  html += "<div class=\"summary\">" + summary_html(scene) + "</div>\n";
+  html += fmt::format(
+      "<div class=\"viewer\" data-scene=\"{}\"><noscript>The pictures need JavaScript; "
+      "tables, "
+      "plots and insets do not.</noscript></div>\n",
+      number);
+  html += "<h3>Where they differ most</h3>\n" + insets_html(page.pictures);
+  html += "<h3>Error</h3>\n" + plots_html(scene, page.results->time_limit);
+  html +=
+      "<p class=\"quiet\">Lines: geometric means over the seeds; bands: smallest to "
+      "largest; "
+      "dashed: equal time; a thick mark on the axis: where learning ends.</p>\n";
+  html += "<h3>Methods</h3>\n" + method_table_html(scene);
+  html += fmt::format(
+      "<p class=\"quiet\">relMSE with epsilon {:g}, mean ± standard deviation over the "
+      "seeds; "
+      "trimmed: without the worst 0.1 % of the pixels; 99.9 %: percentile of the absolute "
+      "error; "
+      "biased runs: those with a tile of 16 x 16 pixels whose mean differs from the "
+      "reference's "
+      "at 5 % for all tiles together; ratios against {} with 95 % confidence.</p>\n",
+      page.results->epsilon, escape_html(scene.methods.front().name));
+  html += "<details><summary>All runs</summary>\n" + run_table_html(scene) + "</details>\n";
+  html += "<h3>Diagnostics</h3>\n" + diagnostics_html(scene);
+  html += "<h3>The same images again</h3>\n" + commands_html(scene);
+  return html + "</section>\n";
+}
+
+std::string machine_html(const Results& r) {
+  return fmt::format(
+      "<p class=\"quiet\">{} at commit {}, {} ({}). {}, {} cores, {:.0f} GiB, {}; {} "
+      "threads. "
+      "{}.</p>\n<pre>{}</pre>\n",
+      escape_html(r.program), escape_html(r.commit), escape_html(r.compiler),
+      escape_html(r.flags), escape_html(r.machine.cpu), r.machine.cores,
+      r.machine.memory_bytes / (1 << 30), escape_html(r.machine.system), r.threads,
+      escape_html(r.created), escape_html(r.command));
+}
+
+std::string head_html() {
+  return fmt::format(
+      "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+      "<link rel=\"icon\" href=\"data:,\">\n"
+      "<title>Tyndall: results</title>\n<style>\n{}</style>\n</head>\n<body>\n"
+      "<h1>Results</h1>\n",
+      asset::report_css);
+}
+
+std::string navigation_html(const std::vector<PageScene>& scenes) {
+  if (scenes.size() < 2) return "";
+  std::string html = "<nav>";
+  for (size_t i = 0; i < scenes.size(); ++i) {
+    html +=
+        fmt::format("<a href=\"#scene-{}\">{}</a>", i, escape_html(scenes[i].scene->name));
+  }
+  return html + "</nav>\n";
+}
+
+std::string data_html(const std::vector<PageScene>& scenes, int steps) {
+  std::string descriptions, data;
+  for (size_t i = 0; i < scenes.size(); ++i) {
+    const PackedPictures packed = pack_pictures(
+        scenes[i].pictures, scenes[i].results->epsilon, steps, static_cast<int>(i));
+    descriptions += (i > 0 ? "," : "") + packed.description;
+    data += packed.data;
+  }
+  return fmt::format("<script type=\"application/json\" id=\"pictures\">[{}]</script>\n{}",
+                     descriptions, data);
+}
+
+}  // namespace
+
+std::string report_page(const std::vector<ReportInput>& inputs) {
+  std::vector<PageScene> scenes;
+  std::string machines;
+  for (const ReportInput& input : inputs) {
+    machines += machine_html(input.results);
+    for (const SceneResults& scene : input.results.scenes) {
+      scenes.push_back({&scene, &input.results, read_pictures(scene, input.folder)});
+    }
+  }
+  std::string text = head_html() + navigation_html(scenes);
+  for (size_t i = 0; i < scenes.size(); ++i)
+    text += scene_html(scenes[i], static_cast<int>(i));
+  text += "<h2>Made with</h2>\n" + machines + asset::help_html;
+  const std::string scripts =
+      fmt::format("<script>\n{}{}{}</script>\n</body>\n</html>\n", asset::pictures_js,
+                  asset::viewer_js, asset::page_js);
+  for (const int steps : {32, 16, 8, 4}) {
+    std::string page = text + data_html(scenes, steps) + scripts;
+    if (page.size() <= report_size_limit) return page;
+  }
+  throw std::runtime_error(
+      fmt::format("the page would have more than {} MB; give fewer results",
+                  report_size_limit / 1'000'000));
+}
+
+}  // namespace tyndall::app

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "apps/tyndall/report/results.h"
+
+namespace tyndall::app {
+
+/// The most bytes that a page may have.
+constexpr size_t report_size_limit = 20'000'000;
+
+struct ReportInput {
+  Results results;
+  std::string folder;  ///< of the results file: its images lie relative to it
+};
+
+/// One HTML page that needs nothing else. Pictures are stored in levels of 2.2 %, or
+/// coarser where the page would become too large. Throws std::runtime_error if an image
+/// cannot be read, or if the page stays too large.
+std::string report_page(const std::vector<ReportInput>& inputs);
+
+}  // namespace tyndall::app

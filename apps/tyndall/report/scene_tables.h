@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "apps/tyndall/report/results.h"
+
+/// The parts of the page that need no script. The first method of a scene is its baseline.
+namespace tyndall::app {
+
+/// What the scene's runs show, in a sentence for each method after the first.
+std::string summary_html(const SceneResults& scene);
+/// A row for each method: means over the seeds.
+std::string method_table_html(const SceneResults& scene);
+/// A row for each run.
+std::string run_table_html(const SceneResults& scene);
+/// The integrators' counters and notes.
+std::string diagnostics_html(const SceneResults& scene);
+/// The commands that render the images again.
+std::string commands_html(const SceneResults& scene);
+
+}  // namespace tyndall::app
