@@ -83,12 +83,6 @@ struct RayContext {
 };
 static_assert(std::is_standard_layout_v<RTCIntersectContext>);
 
-// Distance to the plane of a triangle, exact to double precision.
-double plane_distance(const PreciseTriangle& triangle, const PreciseRay& ray) {
-  const Vec3d n = triangle.normal();
-  return dot(triangle.p0 - ray.o, n) / dot(ray.d, n);
-}
-
 // Three roundings of numbers as large as the longest edge, with a margin of four.
 float safe_volume(const TriangleMesh& mesh) {
   double longest2 = 0;
@@ -124,8 +118,7 @@ void drop_hit_behind(const RTCFilterFunctionNArguments* args) {
       args->context->instID[0] == RTC_INVALID_GEOMETRY_ID)
     return;
   const PreciseRay current = RayContext::current_ray(args->context);
-  if (!(plane_distance(geometry.mesh->triangle(hit.primID), current) > 0))
-    args->valid[0] = 0;
+  if (!starts_in_front(geometry.mesh->triangle(hit.primID), current)) args->valid[0] = 0;
 }
 
 Bounds3 primitive_bounds(const Geometry& geometry, uint32_t primitive) {
@@ -376,12 +369,12 @@ class Intersector::Impl {
     return geometries_[instance ? instance->group : 0][hit.geomID];
   }
 
-  // Whether the ray starts in front of the triangle that Embree found.
-  bool starts_in_front(const RayContext& context, const RTCHit& hit) const {
+  // Whether the hit is not of the triangle that the ray starts from.
+  bool is_proper(const RayContext& context, const RTCHit& hit) const {
     const InstanceMaps* instance = context.instance(hit.instID[0]);
     const Geometry& geometry = geometry_of(instance, hit);
-    return !geometry.mesh || plane_distance(geometry.mesh->triangle(hit.primID),
-                                            context.ray_in(instance)) > 0;
+    return !geometry.mesh ||
+           starts_in_front(geometry.mesh->triangle(hit.primID), context.ray_in(instance));
   }
 
   SceneHit reconstruct(const RayContext& context, const RTCRayHit& query,

@@ -24,6 +24,13 @@ double azimuth_limit(float phi_max) {
 
 bool is_within(double t, double t_max) { return t > 0 && t < t_max; }
 
+// Whether a ray whose distance to the plane that touches the surface at its hit is
+// `distance` starts from the surface itself, as far as double precision tells. `size`
+// bounds the numbers that the distance was computed from.
+bool starts_on_surface(double distance, double size) {
+  return !(std::abs(distance) > 1e-14 * size);
+}
+
 }  // namespace
 
 SphereIntersector::SphereIntersector(const Sphere& sphere)
@@ -31,7 +38,7 @@ SphereIntersector::SphereIntersector(const Sphere& sphere)
       world_from_sphere_(sphere.world_from_sphere),
       sphere_from_world_(world_from_sphere_.inverse()),
       radius_(static_cast<double>(sphere.radius)),
-      phi_max_(azimuth_limit(sphere.phi_max)) {
+      phi_limit_(azimuth_limit(sphere.phi_max)) {
   const float low = std::min(sphere.z_min, sphere.z_max);
   const float high = std::max(sphere.z_min, sphere.z_max);
   z_min_ = low <= -sphere.radius ? -no_limit : static_cast<double>(low) / radius_;
@@ -40,7 +47,7 @@ SphereIntersector::SphereIntersector(const Sphere& sphere)
 
 bool SphereIntersector::is_clipped_away(Vec3d n) const {
   return n.z < z_min_ || n.z > z_max_ ||
-         (phi_max_ < no_limit && azimuth(n.x, n.y) > phi_max_);
+         (phi_limit_ < no_limit && azimuth(n.x, n.y) > phi_limit_);
 }
 
 std::optional<PreciseHit> SphereIntersector::intersect(const PreciseRay& ray,
@@ -57,7 +64,8 @@ std::optional<PreciseHit> SphereIntersector::intersect(const PreciseRay& ray,
   for (const double t : {t_closest - half_t, t_closest + half_t}) {
     if (!is_within(t, t_max)) continue;
     const Vec3d n = normalize_or_z(o + d * t);
-    if (is_clipped_away(n)) continue;
+    if (starts_on_surface(t * dot(n, d), length(o) + radius_) || is_clipped_away(n))
+      continue;
     return PreciseHit{
         .t = t, .uv = sphere_.parameters(n), .p = world_from_sphere_.point(n * radius_)};
   }
@@ -70,22 +78,32 @@ DiskIntersector::DiskIntersector(const Disk& disk)
       height_(static_cast<double>(disk.height)),
       radius_(static_cast<double>(disk.radius)),
       inner_radius_(static_cast<double>(disk.inner_radius)),
-      phi_max_(static_cast<double>(disk.phi_max)) {}
+      phi_max_(static_cast<double>(disk.phi_max)),
+      phi_limit_(azimuth_limit(disk.phi_max)) {}
 
 std::optional<PreciseHit> DiskIntersector::intersect(const PreciseRay& ray,
                                                      double t_max) const {
   const Vec3d o = disk_from_world_.point(ray.o), d = disk_from_world_.vector(ray.d);
   const double t = (height_ - o.z) / d.z;
-  if (!is_within(t, t_max)) return std::nullopt;
+  if (!is_within(t, t_max) || starts_on_surface(height_ - o.z, length(o) + radius_))
+    return std::nullopt;
   const double x = o.x + d.x * t, y = o.y + d.y * t;
   const double r = std::hypot(x, y), phi = azimuth(x, y);
   if (!(r <= radius_ && r >= inner_radius_ && radius_ > inner_radius_)) return std::nullopt;
-  if (phi > phi_max_ && phi_max_ < azimuth_limit(static_cast<float>(phi_max_)))
-    return std::nullopt;
+  if (phi > phi_limit_) return std::nullopt;
   return PreciseHit{.t = t,
                     .uv = {static_cast<float>(phi / phi_max_),
                            static_cast<float>((radius_ - r) / (radius_ - inner_radius_))},
                     .p = world_from_disk_.point({x, y, height_})};
+}
+
+bool starts_in_front(const PreciseTriangle& triangle, const PreciseRay& ray) {
+  const Vec3d n = triangle.normal(), to_corner = triangle.p0 - ray.o;
+  const double distance = dot(to_corner, n);
+  // The rounding of the products that make up the distance, several times over.
+  const double error = 1e-15 * taxicab_length(to_corner) * taxicab_length(triangle.edge1) *
+                       taxicab_length(triangle.edge2);
+  return distance / dot(ray.d, n) > 0 && std::abs(distance) > error;
 }
 
 std::optional<PreciseHit> intersect_patch(const BilinearPatch& patch, const PreciseRay& ray,
@@ -113,6 +131,10 @@ std::optional<PreciseHit> intersect_patch(const BilinearPatch& patch, const Prec
     if (!is_within(t, closest ? closest->t : t_max)) continue;
     if (!(v >= -tolerance && v <= 1 + tolerance)) continue;
     const double v_inside = std::clamp(v, 0.0, 1.0);
+    const Vec3d n = patch.normal(u, v_inside);
+    if (starts_on_surface(t * dot(n, ray.d),
+                          length(n) * (length(q) + length(e) + length(w))))
+      continue;
     closest = PreciseHit{.t = t,
                          .uv = {static_cast<float>(u), static_cast<float>(v_inside)},
                          .p = patch.position(u, v_inside)};

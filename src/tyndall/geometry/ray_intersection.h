@@ -7,6 +7,7 @@
 #include "tyndall/geometry/disk.h"
 #include "tyndall/geometry/precise.h"
 #include "tyndall/geometry/sphere.h"
+#include "tyndall/geometry/triangle_mesh.h"
 
 namespace tyndall {
 
@@ -24,8 +25,17 @@ struct PreciseHit {
   Vec3d p;  ///< on the surface to double precision, in the space of the ray
 };
 
+/// Distance to the plane of a triangle.
+inline double plane_distance(const PreciseTriangle& triangle, const PreciseRay& ray) {
+  const Vec3d n = triangle.normal();
+  return dot(triangle.p0 - ray.o, n) / dot(ray.d, n);
+}
+
+/// Whether the ray goes towards the plane of the triangle and does not start from it.
+bool starts_in_front(const PreciseTriangle& triangle, const PreciseRay& ray);
+
 // Each finds the closest hit at a distance in (0, t_max). Rays with components that are not
-// finite hit nothing.
+// finite hit nothing, and a surface that the ray starts from is not hit there.
 
 /// A sphere with its maps and clips ready for rays.
 class SphereIntersector {
@@ -40,7 +50,7 @@ class SphereIntersector {
   Affine world_from_sphere_, sphere_from_world_;
   double radius_;
   double z_min_, z_max_;  // on the unit sphere, beyond it where nothing is clipped
-  double phi_max_;        // infinite where nothing is clipped
+  double phi_limit_;      // infinite where nothing is clipped
 };
 
 /// A disk with its maps and clips ready for rays.
@@ -53,6 +63,7 @@ class DiskIntersector {
   Affine world_from_disk_, disk_from_world_;
   double height_, radius_, inner_radius_;
   double phi_max_;
+  double phi_limit_;  // infinite where nothing is clipped
 };
 
 /// The hit with a patch, by the quadratic equation for the ruling (a line of constant u)
