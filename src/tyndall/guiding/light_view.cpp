@@ -14,12 +14,12 @@ namespace {
 constexpr float tiny = 1e-30f;
 
 // In [0, 1); NaN becomes 0.
-float to_unit(float x) {
+[[gnu::always_inline]] inline float to_unit(float x) {
   x = x > 0 ? x : 0.0f;
   return x < one_minus_epsilon ? x : one_minus_epsilon;
 }
 
-float sign(float x) { return std::copysign(1.0f, x); }
+[[gnu::always_inline]] inline float sign(float x) { return std::copysign(1.0f, x); }
 
 Vec3 octahedral_direction(Vec2 uv) {
   const float x = 2 * uv.x - 1, y = 2 * uv.y - 1;
@@ -27,6 +27,50 @@ Vec3 octahedral_direction(Vec2 uv) {
   const Vec3 w = z >= 0 ? Vec3{x, y, z}
                         : Vec3{(1 - std::abs(y)) * sign(x), (1 - std::abs(x)) * sign(y), z};
   return normalize(w);
+}
+
+// The three projections of a point in the view's frame. Written without branches, and
+// inlined whatever the compiler thinks, so that the loop over a batch is vectorized.
+
+[[gnu::always_inline]] inline ViewPoint project_sphere(float x, float y, float z) {
+  const float distance = std::sqrt(x * x + y * y + z * z);
+  const float inverse = 1 / std::max(std::abs(x) + std::abs(y) + std::abs(z), tiny);
+  const float a = x * inverse, b = y * inverse;
+  const float folded_a = (1 - std::abs(b)) * sign(a),
+              folded_b = (1 - std::abs(a)) * sign(b);
+  const float u = z < 0 ? folded_a : a, v = z < 0 ? folded_b : b;
+  return {{to_unit(0.5f * u + 0.5f), to_unit(0.5f * v + 0.5f)}, distance};
+}
+
+[[gnu::always_inline]] inline ViewPoint project_cone(float x, float y, float z,
+                                                     float tangent) {
+  const float distance = std::sqrt(x * x + y * y + z * z);
+  const float inverse = 1 / std::max(z * tangent, tiny);
+  const float a = x * inverse, b = y * inverse;
+  const float reach = z > 0 ? std::max(std::abs(a), std::abs(b)) : 2.0f;
+  const bool inside = reach <= 1;  // false for NaN
+  const float u = to_unit(0.5f * a + 0.5f), v = to_unit(0.5f * b + 0.5f);
+  return {{inside ? u : -1.0f, inside ? v : -1.0f}, distance};
+}
+
+[[gnu::always_inline]] inline ViewPoint project_parallel(float x, float y, float z,
+                                                         float radius) {
+  const float inverse = 0.5f / radius;
+  return {{to_unit(x * inverse + 0.5f), to_unit(y * inverse + 0.5f)}, radius - z};
+}
+
+template <typename Project>
+void project_all(Vec3 o, Vec3 d, std::span<const float> t, ViewBatch& out,
+                 Project project) {
+  std::array<float, ViewBatch::capacity> distances;  // of its own: `t` may be part of `out`
+  std::copy(t.begin(), t.end(), distances.begin());
+  for (size_t i = 0; i < t.size(); ++i) {
+    const float s = distances[i];
+    const ViewPoint q = project(o.x + s * d.x, o.y + s * d.y, o.z + s * d.z);
+    out.u[i] = q.uv.x;
+    out.v[i] = q.uv.y;
+    out.distance[i] = q.distance;
+  }
 }
 
 }  // namespace
@@ -48,63 +92,34 @@ LightView LightView::parallel(Vec3 wi, const Bounds3& scene) {
           radius};
 }
 
-template <LightView::Kind kind>
-ViewPoint LightView::project_local(float x, float y, float z) const {
-  if constexpr (kind == Kind::sphere) {
-    const float distance = std::sqrt(x * x + y * y + z * z);
-    const float inverse = 1 / std::max(std::abs(x) + std::abs(y) + std::abs(z), tiny);
-    const float a = x * inverse, b = y * inverse;
-    const float folded_a = (1 - std::abs(b)) * sign(a),
-                folded_b = (1 - std::abs(a)) * sign(b);
-    const float u = z < 0 ? folded_a : a, v = z < 0 ? folded_b : b;
-    return {{to_unit(0.5f * u + 0.5f), to_unit(0.5f * v + 0.5f)}, distance};
-  } else if constexpr (kind == Kind::cone) {
-    const float distance = std::sqrt(x * x + y * y + z * z);
-    const float inverse = 1 / std::max(z * scale_, tiny);
-    const float a = x * inverse, b = y * inverse;
-    const bool outside = !(std::max(std::abs(a), std::abs(b)) <= 1 && z > 0);
-    const float u = to_unit(0.5f * a + 0.5f), v = to_unit(0.5f * b + 0.5f);
-    return {{outside ? -1.0f : u, outside ? -1.0f : v}, distance};
-  } else {
-    const float inverse = 0.5f / scale_;
-    return {{to_unit(x * inverse + 0.5f), to_unit(y * inverse + 0.5f)}, scale_ - z};
-  }
-}
-
 ViewPoint LightView::project(Vec3 p) const {
   const Vec3 q = frame_.to_local(p - origin_);
   switch (kind_) {
     case Kind::sphere:
-      return project_local<Kind::sphere>(q.x, q.y, q.z);
+      return project_sphere(q.x, q.y, q.z);
     case Kind::cone:
-      return project_local<Kind::cone>(q.x, q.y, q.z);
+      return project_cone(q.x, q.y, q.z, scale_);
     default:
-      return project_local<Kind::parallel>(q.x, q.y, q.z);
-  }
-}
-
-template <LightView::Kind kind>
-void LightView::project_batch(Vec3 o, Vec3 d, std::span<const float> t,
-                              ViewBatch& out) const {
-  for (size_t i = 0; i < t.size(); ++i) {
-    const ViewPoint q =
-        project_local<kind>(o.x + t[i] * d.x, o.y + t[i] * d.y, o.z + t[i] * d.z);
-    out.u[i] = q.uv.x;
-    out.v[i] = q.uv.y;
-    out.distance[i] = q.distance;
+      return project_parallel(q.x, q.y, q.z, scale_);
   }
 }
 
 void LightView::project(const Ray& ray, std::span<const float> t, ViewBatch& out) const {
   assert(t.size() <= ViewBatch::capacity);
   const Vec3 o = frame_.to_local(ray.o - origin_), d = frame_.to_local(ray.d);
+  const float scale = scale_;
   switch (kind_) {
     case Kind::sphere:
-      return project_batch<Kind::sphere>(o, d, t, out);
+      return project_all(o, d, t, out,
+                         [](float x, float y, float z) { return project_sphere(x, y, z); });
     case Kind::cone:
-      return project_batch<Kind::cone>(o, d, t, out);
+      return project_all(o, d, t, out, [scale](float x, float y, float z) {
+        return project_cone(x, y, z, scale);
+      });
     default:
-      return project_batch<Kind::parallel>(o, d, t, out);
+      return project_all(o, d, t, out, [scale](float x, float y, float z) {
+        return project_parallel(x, y, z, scale);
+      });
   }
 }
 

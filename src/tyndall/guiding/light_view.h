@@ -52,10 +52,6 @@ class LightView {
 
   LightView(Kind kind, const Frame& frame, Vec3 origin, float scale)
       : kind_(kind), frame_(frame), origin_(origin), scale_(scale) {}
-  template <Kind kind>
-  ViewPoint project_local(float x, float y, float z) const;
-  template <Kind kind>
-  void project_batch(Vec3 o, Vec3 d, std::span<const float> t, ViewBatch& out) const;
 
   Kind kind_;
   Frame frame_;  // z along the axis of a cone, towards a light at infinity

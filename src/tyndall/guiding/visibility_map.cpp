@@ -13,14 +13,32 @@ namespace tyndall {
 
 namespace {
 
-/// Of every quarter of the sorted distances the middle one. Of two middle ones `upper` chooses:
-/// always the same would predict too much or too little on average.
+/// Of every quarter of the sorted distances the middle one. Of two middle ones `upper`
+/// chooses: always the same would predict too much or too little on average.
 std::array<float, 4> quartiles(std::span<float> distances, bool upper) {
   std::sort(distances.begin(), distances.end());
   const size_t group = distances.size() / 4;
   const size_t middle = upper ? group / 2 : (group - 1) / 2;
   return {distances[middle], distances[group + middle], distances[2 * group + middle],
           distances[3 * group + middle]};
+}
+
+[[gnu::always_inline]] inline int32_t texel_index(float u, float v, int32_t side,
+                                                  int32_t offset, int32_t out_of_cone) {
+  const auto x = static_cast<int32_t>(u * static_cast<float>(side));
+  const auto y = static_cast<int32_t>(v * static_cast<float>(side));
+  const int32_t inside = offset + y * side + x;
+  return u < 0 ? out_of_cone : inside;
+}
+
+// The share of the four distances that lie beyond `distance`.
+[[gnu::always_inline]] inline float share_beyond(const std::array<float, 4>& distances,
+                                                 float distance) {
+  const float a = distances[0] > distance ? 0.25f : 0.0f;
+  const float b = distances[1] > distance ? 0.25f : 0.0f;
+  const float c = distances[2] > distance ? 0.25f : 0.0f;
+  const float d = distances[3] > distance ? 0.25f : 0.0f;
+  return (a + b) + (c + d);
 }
 
 }  // namespace
@@ -33,12 +51,13 @@ VisibilityMap::VisibilityMap(const LightView& view, const VisibilityMapSettings&
       seed_(settings.seed) {
   assert(std::has_single_bit(static_cast<unsigned>(resolution_)) && resolution_ <= 1 << 13);
   assert(rays_per_texel_ > 0 && rays_per_texel_ % 4 == 0);
-  uint32_t size = 0;
-  for (uint32_t side = static_cast<uint32_t>(resolution_); side > 0; side /= 2) {
+  int32_t size = 0;
+  for (int32_t side = resolution_; side > 0; side /= 2) {
     level_offset_.push_back(size);
     size += side * side;
   }
-  texels_.resize(size + 1, Texel{{infinity, infinity, infinity, infinity}});
+  texels_.resize(static_cast<size_t>(size) + 1,
+                 Texel{{infinity, infinity, infinity, infinity}});
   texels_.back() = Texel{{-1, -1, -1, -1}};
 }
 
@@ -73,7 +92,8 @@ void VisibilityMap::trace_rows(int begin, int end, const Trace& trace,
 void VisibilityMap::finish() {
   for (size_t level = 1; level < level_offset_.size(); ++level) {
     const auto side = static_cast<uint32_t>(resolution_) >> level;
-    const uint32_t fine = level_offset_[level - 1], coarse = level_offset_[level];
+    const auto fine = static_cast<uint32_t>(level_offset_[level - 1]);
+    const auto coarse = static_cast<uint32_t>(level_offset_[level]);
     for (uint32_t y = 0; y < side; ++y)
       for (uint32_t x = 0; x < side; ++x) {
         std::array<float, 16> distances;
@@ -86,37 +106,32 @@ void VisibilityMap::finish() {
   }
 }
 
-uint32_t VisibilityMap::index(float u, float v, int level) const {
-  const int side = resolution_ >> level;
-  const auto x = static_cast<int32_t>(u * static_cast<float>(side));
-  const auto y = static_cast<int32_t>(v * static_cast<float>(side));
-  const uint32_t inside =
-      level_offset_[static_cast<size_t>(level)] + static_cast<uint32_t>(y * side + x);
-  return u < 0 ? static_cast<uint32_t>(texels_.size() - 1) : inside;
-}
-
-float VisibilityMap::predict(const Texel& texel, float distance) const {
-  int visible = 0;
-  for (const float d : texel.distance) visible += d > distance ? 1 : 0;
-  return floor_ + (1 - floor_) * 0.25f * static_cast<float>(visible);
-}
-
 float VisibilityMap::visibility(Vec3 p, int level) const {
   const ViewPoint q = view_.project(p);
-  return predict(texels_[index(q.uv.x, q.uv.y, level)], q.distance);
+  const int32_t side = resolution_ >> level;
+  const int32_t i = texel_index(q.uv.x, q.uv.y, side,
+                                level_offset_[static_cast<size_t>(level)], out_of_cone());
+  return floor_ +
+         (1 - floor_) * share_beyond(texels_[static_cast<size_t>(i)].distance, q.distance);
 }
 
 void VisibilityMap::visibility(const Ray& ray, std::span<const float> t,
                                std::span<float> out, int level) const {
   assert(out.size() == t.size() && 0 <= level && level < levels());
+  const int32_t side = resolution_ >> level, last = out_of_cone();
+  const int32_t offset = level_offset_[static_cast<size_t>(level)];
+  const float floor = floor_, rest = 1 - floor_;
+  const Texel* texels = texels_.data();
   ViewBatch batch;
-  std::array<uint32_t, ViewBatch::capacity> texel;
+  alignas(32) std::array<int32_t, ViewBatch::capacity> index;
   for (size_t begin = 0; begin < t.size(); begin += ViewBatch::capacity) {
     const size_t n = std::min(ViewBatch::capacity, t.size() - begin);
     view_.project(ray, t.subspan(begin, n), batch);
-    for (size_t i = 0; i < n; ++i) texel[i] = index(batch.u[i], batch.v[i], level);
     for (size_t i = 0; i < n; ++i)
-      out[begin + i] = predict(texels_[texel[i]], batch.distance[i]);
+      index[i] = texel_index(batch.u[i], batch.v[i], side, offset, last);
+    for (size_t i = 0; i < n; ++i)
+      out[begin + i] =
+          floor + rest * share_beyond(texels[index[i]].distance, batch.distance[i]);
   }
 }
 

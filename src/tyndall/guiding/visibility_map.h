@@ -13,7 +13,7 @@
 namespace tyndall {
 
 struct VisibilityMapSettings {
-  int resolution = 512;    ///< texels per side of the finest level; a power of two
+  int resolution = 256;    ///< texels per side of the finest level; a power of two
   int rays_per_texel = 4;  ///< a multiple of four
   float floor = 0.05f;     ///< least predicted visibility: the price of being wrong
   uint64_t seed = 0;
@@ -71,14 +71,13 @@ class VisibilityMap {
   };
 
   Texel trace_texel(int x, int y, const Trace& trace, const Origin& origin) const;
-  uint32_t index(float u, float v, int level) const;
-  float predict(const Texel& texel, float distance) const;
+  int32_t out_of_cone() const { return static_cast<int32_t>(texels_.size()) - 1; }
 
   LightView view_;
   int resolution_, rays_per_texel_;
   float floor_;
   uint64_t seed_;
-  std::vector<uint32_t> level_offset_;
+  std::vector<int32_t> level_offset_;
   std::vector<Texel>
       texels_;  // finest level first; the last one stands for "out of the cone"
 };
