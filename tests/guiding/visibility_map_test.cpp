@@ -193,7 +193,8 @@ float optical_depth(const Ray& ray, float t0, float t1) {
 }
 
 TEST(OpticalDepthMapTest, PredictsTransmittance) {
-  // Between 32 steps the curvature 2 r of the depth makes at most 0.013, and 0.003 on average.
+  // Between 32 steps the curvature 2 r of the depth makes at most 0.013, and 0.003 on
+  // average.
   OpticalDepthMap map(LightView::around({0, 0, 0}), 3, 256, 32);
   map.trace_rows(0, map.rows(), optical_depth);
   RandomStream random(11);

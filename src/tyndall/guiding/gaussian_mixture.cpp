@@ -126,4 +126,32 @@ float GaussianMixture::effective_components() const {
   return std::exp(entropy);
 }
 
+void GaussianMixture::write(ByteWriter& out) const {
+  out.write(static_cast<uint32_t>(size_));
+  for (const Lanes* lanes :
+       {&mean_x_, &mean_y_, &inverse_xx_, &inverse_yx_, &inverse_yy_, &peak_, &weight_})
+    for (size_t k = 0; k < static_cast<size_t>(size_); ++k) out.write((*lanes)[k]);
+}
+
+void GaussianMixture::read(ByteReader& in) {
+  *this = GaussianMixture();
+  const auto size = in.read_as<uint32_t>();
+  if (size > static_cast<uint32_t>(capacity)) return in.fail();
+  bool valid = true;
+  for (Lanes* lanes :
+       {&mean_x_, &mean_y_, &inverse_xx_, &inverse_yx_, &inverse_yy_, &peak_, &weight_})
+    for (size_t k = 0; k < size; ++k) {
+      in.read((*lanes)[k]);
+      valid = valid && std::isfinite((*lanes)[k]);
+    }
+  for (size_t k = 0; k < size; ++k)
+    valid =
+        valid && inverse_xx_[k] > 0 && inverse_yy_[k] > 0 && peak_[k] > 0 && weight_[k] > 0;
+  if (in.failed() || !valid) {
+    *this = GaussianMixture();
+    return in.fail();
+  }
+  size_ = static_cast<int>(size);
+}
+
 }  // namespace tyndall

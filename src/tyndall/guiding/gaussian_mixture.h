@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 
+#include "tyndall/guiding/byte_stream.h"
 #include "tyndall/math/vec.h"
 
 namespace tyndall {
@@ -67,6 +68,9 @@ class GaussianMixture {
   /// exp of the entropy of the weights: between 1 and size(); zero if uniform.
   float effective_components() const;
 
+  void write(ByteWriter& out) const;
+  /// Fails the reader if what it reads is no mixture.
+  void read(ByteReader& in);
   friend bool operator==(const GaussianMixture&, const GaussianMixture&) = default;
 
  private:
