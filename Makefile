@@ -17,14 +17,17 @@ help:
 setup:
 	@tools/setup.sh
 
-# Configured once; after that Ninja runs CMake again when it has to.
-$(BUILD)/build.ninja: | setup
-	cmake --preset release
-
-build: setup $(BUILD)/build.ninja
+# Ninja runs CMake again when it has to; here only what the demo leaves out is switched on.
+build: setup
+	@grep -qs 'TYNDALL_BUILD_TESTS:BOOL=ON' $(BUILD)/CMakeCache.txt || \
+	  cmake --preset release -DTYNDALL_BUILD_TESTS=ON -DTYNDALL_BUILD_BENCH=ON
 	cmake --build $(BUILD)
 
-demo: setup $(BUILD)/build.ninja
+# Needs neither the tests nor their packages.
+demo:
+	@tools/setup.sh build
+	@test -f $(BUILD)/build.ninja || \
+	  cmake --preset release -DTYNDALL_BUILD_TESTS=OFF -DTYNDALL_BUILD_BENCH=OFF
 	cmake --build $(BUILD) --target tyndall_cli
 	@mkdir -p $(OUT)
 	$(BUILD)/tyndall render scenes/nave.pbrt -o $(OUT)/demo.exr -o $(OUT)/demo.png

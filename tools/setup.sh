@@ -1,12 +1,21 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# Installs the Debian packages of debian-packages.txt that are missing, and nothing else.
+# Installs the Debian packages of debian-packages.txt that are missing, and nothing else. With
+# groups as arguments (build, test) only those groups.
 # Does nothing in a moment when all are there. Exit status 1: something is missing and cannot be
 # installed here; the message names it.
 set -euo pipefail
 
 list=$(dirname "$0")/debian-packages.txt
-mapfile -t packages < <(sed 's/#.*//' "$list" | tr -s '[:space:]' '\n' | sed '/^$/d')
+packages=()
+group=
+while read -r word; do
+  case $word in
+    '' | '#'*) ;;
+    '['*) group=${word//[][]/} ;;
+    *) [[ $# == 0 || " $* " == *" $group "* ]] && packages+=("${word%% *}") ;;
+  esac
+done < "$list"
 
 if ! command -v dpkg-query > /dev/null; then
   echo "setup: this is not a Debian system; install what these packages hold yourself:" >&2

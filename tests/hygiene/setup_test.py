@@ -20,7 +20,7 @@ class SetupTest(unittest.TestCase):
         self.root = pathlib.Path(folder.name)
         (self.root / "tools").mkdir()
         shutil.copy(SETUP, self.root / "tools")
-        (self.root / "tools/debian-packages.txt").write_text("# list\ng++\nlibfmt-dev  # text\n")
+        (self.root / "tools/debian-packages.txt").write_text("# list\n[build]\ng++\n\n[test]\nlibfmt-dev  # text\n")
         self.bin = self.root / "bin"
         self.bin.mkdir()
         for name in REAL:
@@ -40,8 +40,8 @@ class SetupTest(unittest.TestCase):
         if sudo is not None:
             self.fake("sudo", f'[ "$1" = -n ] && exit {sudo}; echo sudo >> {self.log}; exec "$@"')
 
-    def run_setup(self):
-        result = subprocess.run([self.root / "tools/setup.sh"], env={"PATH": str(self.bin)},
+    def run_setup(self, *groups):
+        result = subprocess.run([self.root / "tools/setup.sh", *groups], env={"PATH": str(self.bin)},
                                 stdin=subprocess.DEVNULL, capture_output=True, text=True)
         return result, self.log.read_text() if self.log.exists() else ""
 
@@ -57,6 +57,10 @@ class SetupTest(unittest.TestCase):
         options = "-o Dpkg::Use-Pty=0 -qq"
         self.assertEqual(log, f"noninteractive apt-get {options} update\nnoninteractive apt-get "
                               f"{options} install -y --no-install-recommends libfmt-dev\n")
+
+    def test_one_group_only(self):
+        self.machine([], user=0)
+        self.assertTrue(self.run_setup("build")[1].endswith(" --no-install-recommends g++\n"))
 
     def test_a_package_whose_name_only_begins_alike_does_not_count(self):
         self.machine(["g++", "libfmt-dev-extra"], user=0)
