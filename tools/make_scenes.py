@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Writes the geometry and the density grid of the scenes in scenes/, which are CC0.
 
-Units are meters; y is up. The nave is a hall with pointed windows on its right side, columns,
-and a tiled floor; the plume is smoke of a small fire.
+Units are meters; y is up. The hall has pointed windows on its right side, columns, and a tiled
+floor; the lantern is a pierced ball; the plume is the smoke of a small fire.
 """
 
 import argparse
@@ -12,7 +12,7 @@ import pathlib
 
 import numpy as np
 
-# The nave: x from -HALF_WIDTH to HALF_WIDTH, z from 0 to LENGTH.
+# The hall: x from -HALF_WIDTH to HALF_WIDTH, z from 0 to LENGTH.
 HALF_WIDTH, HEIGHT, LENGTH, WALL = 4.0, 7.0, 26.0, 0.5
 BAYS = 6
 WINDOW_WIDTH, SILL, SPRING = 1.5, 1.6, 3.9  # the arch begins at height SPRING
@@ -113,8 +113,8 @@ def floor_tiles(light, dark, size=1.0):
             mesh.quad((x0, 0, z0), (x1, 0, z0), (x1, 0, z0 + size), (x0, 0, z0 + size))
 
 
-def nave():
-    """The include file of nave.pbrt: one named material before each mesh."""
+def hall():
+    """The include file of the hall: one named material before each mesh."""
     walls, stone, light, dark = Mesh(), Mesh(), Mesh(), Mesh()
     window_wall(walls)
     shell(walls)
@@ -123,6 +123,44 @@ def nave():
     parts = [("wall", walls), ("stone", stone), ("light tile", light), ("dark tile", dark)]
     return "# Written by tools/make_scenes.py.\n" + "".join(
         f'NamedMaterial "{name}"\n{mesh.text()}' for name, mesh in parts)
+
+
+def on_sphere(radius, latitude, longitude):
+    """A point on a sphere around the origin; angles in radians."""
+    return (radius * math.cos(latitude) * math.cos(longitude), radius * math.sin(latitude),
+            radius * math.cos(latitude) * math.sin(longitude))
+
+
+def pierced_cell(mesh, radius, latitude, longitude, half_height, half_width, hole):
+    """A patch of a sphere with a round hole of `hole` radians: a ring of quads between both."""
+    corners = [(1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1)]
+    outer = [on_sphere(radius, latitude + half_height * v, longitude + half_width * u)
+             for u, v in corners]
+    inner = [on_sphere(radius, latitude + hole * math.sin(a),
+                       longitude + hole * math.cos(a) / math.cos(latitude))
+             for a in (k * math.pi / 4 for k in range(8))]
+    for k in range(8):
+        mesh.quad(outer[k], outer[k - 1], inner[k - 1], inner[k])
+
+
+def lantern(radius=0.4, rings=5, cells=12):
+    """The include file of the lantern: a ball with round holes in rings, around the origin."""
+    mesh = Mesh()
+    reach = math.radians(62)
+    half = reach / rings
+    for i in range(rings):
+        latitude = -reach + (2 * i + 1) * half
+        hole = 0.105 if i % 2 == 0 else 0.075
+        for j in range(cells):
+            longitude = 2 * math.pi * (j + 0.5 * (i % 2)) / cells
+            pierced_cell(mesh, radius, latitude, longitude, half, math.pi / cells, hole)
+    for sign in (-1, 1):
+        for j in range(2 * cells):
+            a, b = math.pi * j / cells, math.pi * (j + 1) / cells
+            pole = (0, sign * radius, 0)
+            mesh.quad(on_sphere(radius, sign * reach, a), on_sphere(radius, sign * reach, b), pole,
+                      pole)
+    return "# Written by tools/make_scenes.py.\n" + mesh.text()
 
 
 def smooth_noise(shape, cells, random):
@@ -180,7 +218,8 @@ def main():
                         default=pathlib.Path(__file__).resolve().parent.parent / "scenes")
     folder = parser.parse_args().folder
     folder.mkdir(parents=True, exist_ok=True)
-    (folder / "nave_geometry.pbrt").write_text(nave())
+    (folder / "hall_geometry.pbrt").write_text(hall())
+    (folder / "lantern_geometry.pbrt").write_text(lantern())
     (folder / "plume_density.pbrt").write_text(plume())
 
 

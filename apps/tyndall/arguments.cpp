@@ -47,6 +47,25 @@ std::string wrap(const std::string& text) {
   return result;
 }
 
+/// CLI11's help without doubled empty lines.
+class CompactFormatter : public CLI::Formatter {
+ public:
+  CompactFormatter() {
+    column_width(name_width);
+    label("Positionals", "Arguments");
+    label("SUBCOMMAND", "COMMAND");
+    label("OPTIONS", "options");
+  }
+
+  std::string make_help(const CLI::App* app, std::string name,
+                        CLI::AppFormatMode mode) const override {
+    std::string text = CLI::Formatter::make_help(app, std::move(name), mode);
+    for (size_t at = text.find("\n\n\n"); at != text.npos; at = text.find("\n\n\n", at))
+      text.erase(at, 1);
+    return text;
+  }
+};
+
 /// Turns a target into a function of the argument's text.
 struct MakeParser {
   template <typename Number>
@@ -87,7 +106,8 @@ std::string blame(const std::string& name, const std::string& variable,
 CLI::Option* add(CLI::App& app, const std::string& names, const std::string& variable,
                  const ArgumentTarget& target, const std::string& help,
                  const ArgumentStyle& style) {
-  const bool is_list = std::holds_alternative<std::vector<std::string>*>(target);
+  const bool is_list =
+      style.repeatable || std::holds_alternative<std::vector<std::string>*>(target);
   const auto read = [name = long_name(names), variable, choices = style.choices,
                      parse =
                          std::visit(MakeParser{}, target)](const CLI::results_t& texts) {
@@ -163,7 +183,7 @@ std::string describe(const CLI::ParseError& error, const CLI::App& command) {
 Command& Command::positional(const std::string& name, ArgumentTarget target,
                              const std::string& help, const ArgumentStyle& style) {
   CLI::Option* option = add(*app_, name, "", target, help, style);
-  option->option_text(" ")->group("Arguments");
+  option->option_text(" ");
   if (std::holds_alternative<std::vector<std::string>*>(target)) option->expected(-1);
   return *this;
 }
@@ -199,9 +219,7 @@ Command& Command::on_run(std::function<ExitCode()> run) {
 Program::Program(const std::string& name, const std::string& description,
                  const std::string& version)
     : app_(std::make_unique<CLI::App>(description, name)) {
-  app_->get_formatter()->column_width(name_width);
-  app_->get_formatter()->label("SUBCOMMAND", "COMMAND");
-  app_->get_formatter()->label("OPTIONS", "options");
+  app_->formatter(std::make_shared<CompactFormatter>());
   app_->set_version_flag("--version", version,
                          "Print the version and what it was built with");
   app_->set_help_flag("-h,--help", "Print this help");

@@ -35,6 +35,7 @@ struct ArgumentStyle {
   std::vector<std::string> choices = {};  ///< the only valid values, if there are any
   std::string group = "Options";          ///< heading in help
   bool required = false;
+  bool repeatable = false;  ///< every occurrence counts, not only the last; vectors always
 };
 
 /// One subcommand's arguments. A thin face of CLI11, which only arguments.cpp includes

@@ -67,7 +67,12 @@ void declare_quality(Command& command, RenderArguments& a) {
               {.choices = {"sobol", "independent"}, .group = group})
       .option("--seed", &a.seed, "another number gives another, independent picture",
               {.value = "N", .group = group})
-      .option("--set", &a.assignments, "set an option of the integrator; may be repeated",
+      .option("--set",
+              [&a](const std::string& text) {
+                a.assignments.push_back(parse_assignment(text));
+              },
+              "set an option of the integrator; may be repeated",
+              {.value = "NAME=VALUE", .group = group, .repeatable = true}); may be repeated",
               {.value = "NAME=VALUE", .group = group});
 }
 
@@ -170,10 +175,7 @@ void apply(const RenderArguments& a, RenderSettings& settings) {
   if (a.sampler)
     settings.sampler =
         *a.sampler == "sobol" ? SamplerKind::sobol : SamplerKind::independent;
-  for (const std::string& text : a.assignments) {
-    const auto [name, value] = parse_assignment(text);
-    settings.options[name] = value;
-  }
+  for (const auto& [name, value] : a.assignments) settings.options[name] = value;
   if (a.size) resize(*a.size, settings);
   apply_window(a, settings);
 }

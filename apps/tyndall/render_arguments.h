@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "apps/tyndall/arguments.h"
@@ -24,7 +25,7 @@ struct RenderArguments {
   std::optional<ScatteringOrders> orders;
   std::optional<std::string> sampler;
   std::optional<uint64_t> seed;
-  std::vector<std::string> assignments;  ///< "name=value"
+  std::vector<std::pair<std::string, std::string>> assignments;  ///< option name, value
 
   std::optional<Vec2i> size;
   std::optional<CropWindow> crop;

@@ -31,7 +31,7 @@ TEST(ApplyArguments, OverridesTheScene) {
   RenderArguments arguments;
   arguments.samples_per_pixel = 9;
   arguments.sampler = "independent";
-  arguments.assignments = {"a.b=1", "a.b=2", "c=x"};
+  arguments.assignments = {{"a.b", "1"}, {"a.b", "2"}, {"c", "x"}};
   apply(arguments, settings);
   EXPECT_EQ(settings.samples_per_pixel, 9u);
   EXPECT_EQ(settings.sampler, SamplerKind::independent);
