@@ -30,7 +30,7 @@ demo:
 	  cmake --preset release -DTYNDALL_BUILD_TESTS=OFF -DTYNDALL_BUILD_BENCH=OFF
 	cmake --build $(BUILD) --target tyndall_cli
 	@mkdir -p $(OUT)
-	$(BUILD)/tyndall render scenes/nave.pbrt -o $(OUT)/demo.exr -o $(OUT)/demo.png
+	$(BUILD)/tyndall render scenes/lantern.pbrt -o $(OUT)/demo.exr -o $(OUT)/demo.png
 	@echo
 	@echo "The picture is $(OUT)/demo.png; $(OUT)/demo.exr holds it with all its layers."
 

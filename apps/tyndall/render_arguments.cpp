@@ -72,8 +72,7 @@ void declare_quality(Command& command, RenderArguments& a) {
                 a.assignments.push_back(parse_assignment(text));
               },
               "set an option of the integrator; may be repeated",
-              {.value = "NAME=VALUE", .group = group, .repeatable = true}); may be repeated",
-              {.value = "NAME=VALUE", .group = group});
+              {.value = "NAME=VALUE", .group = group, .repeatable = true});
 }
 
 void declare_picture(Command& command, RenderArguments& a) {
