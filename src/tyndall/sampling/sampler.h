@@ -30,7 +30,7 @@ class Sampler {
 
  private:
   SamplerKind kind_;
-  uint32_t index_;
+  uint32_t index_, reversed_index_;
   uint32_t dimension_ = 0;
   uint64_t key_;  // hash of seed and pixel, and of the index if independent
 };
