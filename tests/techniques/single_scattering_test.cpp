@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include <boost/math/special_functions/ellint_2.hpp>
-#include <tuple>
-
 #include "support/chi_square.h"
 #include "support/quadrature.h"
+#include "techniques/references.h"
 #include "techniques/technique_checks.h"
 #include "tyndall/techniques/binned_distance.h"
 #include "tyndall/techniques/equiangular.h"
@@ -16,27 +14,6 @@ namespace {
 
 static_assert(DistanceTechnique<EquiangularSampling>);
 static_assert(DistanceTechnique<SingleScatteringDistance>);
-
-double henyey_greenstein(double g, double cos_theta) {
-  return (1 - g * g) / (4 * M_PI) / std::pow(1 + g * g - 2 * g * cos_theta, 1.5);
-}
-
-/// The integral of henyey_greenstein(g, cos u) du over [0, alpha], by an elliptic integral.
-double arc(double g, double alpha) {
-  if (g < 0) return arc(-g, M_PI) - arc(-g, M_PI - alpha);
-  const double k2 = (1 + g) / (1 - g);
-  const double angle = std::atan2(k2 * std::sin(alpha / 2), std::cos(alpha / 2));
-  return boost::math::ellint_2(std::sqrt(1 - 1 / (k2 * k2)), angle) / (2 * M_PI * (1 - g));
-}
-
-TEST(Arc, ReferenceIsTheIntegralOfThePhaseFunction) {
-  for (const double g : {-0.9, -0.3, 0.2, 0.75, 0.99})
-    for (const double alpha : {0.01, 0.5, 2.0, 3.1}) {
-      const double expected =
-          quadrature([&](double u) { return henyey_greenstein(g, std::cos(u)); }, 0, alpha);
-      EXPECT_NEAR(arc(g, alpha) / expected, 1, 1e-9) << g << " " << alpha;
-    }
-}
 
 class EquiangularTest : public testing::TestWithParam<Geometry> {};
 INSTANTIATE_TEST_SUITE_P(Geometries, EquiangularTest, testing::ValuesIn(geometries()));
@@ -62,16 +39,7 @@ TEST(Equiangular, TapsAreItsSamples) {
   for (const Geometry& geometry : geometries()) {
     const EquiangularSampling technique(geometry.ray(), geometry.pivot(), geometry.t_min,
                                         geometry.t_max);
-    const auto taps = technique.taps<64>();
-    for (int i = 0; i < 64; ++i) {
-      const double t = technique.sample((static_cast<float>(i) + 0.5f) / 64)->t;
-      const double tolerance = 1e-4 * geometry.r(t) + 4 * ulp(t) + 2 * ulp(geometry.foot);
-      EXPECT_NEAR(taps.t[i], t, tolerance) << geometry << " " << i;
-      EXPECT_NEAR(taps.distance[i], geometry.r(t), tolerance) << geometry << " " << i;
-      EXPECT_NEAR(taps.cos_alpha[i], std::cos(geometry.alpha(t)),
-                  1e-4 + tolerance / geometry.r(t))
-          << geometry << " " << i;
-    }
+    expect_taps_are_samples(geometry, technique);
   }
 }
 

@@ -122,4 +122,19 @@ void expect_inverse_jacobian(const Technique& technique, double tolerance) {
   }
 }
 
+/// The taps of a technique are its samples at the middle of each part.
+template <typename Technique>
+void expect_taps_are_samples(const Geometry& geometry, const Technique& technique) {
+  const auto taps = technique.template taps<64>();
+  for (size_t i = 0; i < 64; ++i) {
+    const double t = technique.sample((static_cast<float>(i) + 0.5f) / 64)->t;
+    const double tolerance = 1e-4 * geometry.r(t) + 4 * ulp(t) + 2 * ulp(geometry.foot);
+    EXPECT_NEAR(taps.t[i], t, tolerance) << geometry << " " << i;
+    EXPECT_NEAR(taps.distance[i], geometry.r(t), tolerance) << geometry << " " << i;
+    EXPECT_NEAR(taps.cos_alpha[i], std::cos(geometry.alpha(t)),
+                1e-4 + tolerance / geometry.r(t))
+        << geometry << " " << i;
+  }
+}
+
 }  // namespace tyndall

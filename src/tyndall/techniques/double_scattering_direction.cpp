@@ -8,6 +8,13 @@
 
 namespace tyndall {
 
+/// Where the tables look a direction up.
+struct DoubleScatteringDirection::TablePoint {
+  ThetaWarp warp;
+  float z;       ///< of warp
+  float e, eta;  ///< row and column of the azimuth
+};
+
 /// A direction around the frame's z axis; half angles keep their digits at both poles.
 struct DoubleScatteringDirection::Polar {
   float sin_half, cos_half;                  ///< of the polar angle theta
@@ -63,7 +70,7 @@ void DoubleScatteringDirection::look_at(Vec3 b, Vec3 pivot) {
 }
 
 LinearRows::Blend DoubleScatteringDirection::half(bool is_above) const {
-  if (is_any_direction_) return tables_->theta_of_any_direction().blend(0, 0, 0);
+  if (is_any_direction_) return tables_->theta_of_any_direction().row(0);
   return tables_->theta().blend(2 * row_ + (is_above ? 1 : 0), 2, row_weight_);
 }
 
@@ -79,40 +86,41 @@ float DoubleScatteringDirection::azimuth_ratio(const Polar& p) const {
   return std::sqrt(ahead / behind);
 }
 
-LinearRows::Blend DoubleScatteringDirection::azimuth(const Polar& p) const {
-  const LinearRows& table = azimuth_table();
-  const float e = azimuth_ratio(p);
+LinearRows::Blend DoubleScatteringDirection::azimuth(float e) const {
+  const LinearRows& table = tables_->azimuth();
   const int last = table.rows() - 1;
-  const int row = std::clamp(
-      static_cast<int>(std::sqrt(e) * static_cast<float>(last)), 0, last - 1);
-  const float low = sqr(static_cast<float>(row) / static_cast<float>(last));
-  const float high = sqr(static_cast<float>(row + 1) / static_cast<float>(last));
-  return table.blend(row, 1, std::clamp((e - low) / (high - low), 0.0f, 1.0f));
+  const float position = std::sqrt(e) * static_cast<float>(last);
+  const int row = std::clamp(static_cast<int>(position), 0, last - 1);
+  const auto i = static_cast<float>(row);
+  // Between e = (i / last)^2 and ((i + 1) / last)^2.
+  const float weight = (position - i) * (position + i) / (2 * i + 1);
+  return table.blend(row, 1, std::clamp(weight, 0.0f, 1.0f));
 }
 
 std::optional<DoubleDirectionSample> DoubleScatteringDirection::sample(Vec2 u) const {
   if (!is_proper_) return std::nullopt;
-  Vec3 local;
-  if (tables_->is_isotropic()) {
-    // From the top: u = 1 - (1 - theta / pi)^2.
-    const float theta = pi * u.x / (1 + safe_sqrt(1 - u.x)), phi = 2 * pi * u.y;
-    local = {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
-             std::cos(theta)};
-  } else {
-    local = sample_tables(u);
-  }
-  const Vec3 w = normalize(frame_.to_world(local));
-  const float density = pdf(w);
+  return tables_->is_isotropic() ? sample_isotropic(u) : sample_tables(u);
+}
+
+std::optional<DoubleDirectionSample> DoubleScatteringDirection::sample_isotropic(
+    Vec2 u) const {
+  // u = 1 - (1 - theta / pi)^2; the second form of theta keeps its digits near zero.
+  const float root = safe_sqrt(1 - u.x);
+  const float theta = pi * u.x / (1 + root), phi = 2 * pi * u.y;
+  const float sin_theta = std::sin(theta);
+  const Vec3 w = frame_.to_world(
+      {sin_theta * std::cos(phi), sin_theta * std::sin(phi), std::cos(theta)});
+  const float density = density_or_zero(isotropic_pdf(pi * root, sin_theta_of(w)));
   if (!(density > 0)) return std::nullopt;
   return DoubleDirectionSample{.w = w, .pdf = density};
 }
 
-Vec3 DoubleScatteringDirection::sample_tables(Vec2 u) const {
+std::optional<DoubleDirectionSample> DoubleScatteringDirection::sample_tables(Vec2 u) const {
   const float below = is_any_direction_ ? 0 : half(false).mass();
   const bool is_above = u.x >= below;
-  const LinearRows::Blend rows = half(is_above);
   const ThetaWarp warp{y_alpha_, is_above};
-  const float y = warp.y(rows.invert(is_above ? u.x - below : u.x));
+  const auto polar_point = half(is_above).invert(is_above ? u.x - below : u.x);
+  const float y = warp.y(polar_point.x);
   Polar p{};
   const float sine = y, cosine = tables_->k_theta() * (1 - y);
   const float scale = 1 / std::sqrt(sqr(sine) + sqr(cosine));
@@ -121,23 +129,34 @@ Vec3 DoubleScatteringDirection::sample_tables(Vec2 u) const {
 
   const float v = 2 * u.y - 1;
   const float e = azimuth_ratio(p);
-  const float eta = azimuth(p).invert(std::abs(v));
-  const float s = e * eta, c = 1 - eta, n = 1 / (sqr(s) + sqr(c));
-  const float cos_phi = (c - s) * (c + s) * n;
-  const float sin_phi = std::copysign(2 * s * c * n, v);
+  const auto azimuth_point = azimuth(e).invert(std::abs(v));
+  const float s = e * azimuth_point.x, c = 1 - azimuth_point.x;
+  const float n2 = 1 / (sqr(s) + sqr(c)), n = std::sqrt(n2);
+  p.sin_half_azimuth = s * n;
+  p.cos_half_azimuth = c * n;
+
   const float sin_theta = p.sin_theta();
-  return {sin_theta * cos_phi, sin_theta * sin_phi,
-          (p.cos_half - p.sin_half) * (p.cos_half + p.sin_half)};
+  const Vec3 w = frame_.to_world({sin_theta * (c - s) * (c + s) * n2,
+                                  sin_theta * std::copysign(2 * s * c * n2, v),
+                                  (p.cos_half - p.sin_half) * (p.cos_half + p.sin_half)});
+  const float density =
+      density_or_zero(polar_point.density / warp.slope(polar_point.x) * polar_slope(p) *
+                      azimuth_point.density * azimuth_slope(p, e) / sin_theta);
+  if (!(density > 0)) return std::nullopt;
+  return DoubleDirectionSample{.w = w, .pdf = density};
+}
+
+/// From the very vector that a distance technique along w will use, in double as there: the
+/// densities of the two are singular at theta = 0, and cancel only so.
+float DoubleScatteringDirection::sin_theta_of(Vec3 w) const {
+  const double x = y_ * w.z - z_ * w.y, y = z_ * w.x - x_ * w.z, z = x_ * w.y - y_ * w.x;
+  return static_cast<float>(std::sqrt(x * x + y * y + z * z));
 }
 
 DoubleScatteringDirection::Polar DoubleScatteringDirection::polar(Vec3 w) const {
   Polar p{};
-  // From the very vector that a distance technique along w will use, or the densities of the
-  // two, both singular at theta = 0, would not cancel there.
-  const double wx = w.x, wy = w.y, wz = w.z;
-  const double cx = y_ * wz - z_ * wy, cy = z_ * wx - x_ * wz, cz = x_ * wy - y_ * wx;
-  const auto sine = static_cast<float>(std::sqrt(cx * cx + cy * cy + cz * cz));
-  const auto cosine = static_cast<float>(x_ * wx + y_ * wy + z_ * wz);
+  const float sine = sin_theta_of(w);
+  const auto cosine = static_cast<float>(x_ * w.x + y_ * w.y + z_ * w.z);
   const float major = std::sqrt(0.5f * (1 + std::min(std::abs(cosine), 1.0f)));
   const float minor = 0.5f * sine / major;
   p.sin_half = cosine >= 0 ? minor : major;
@@ -153,33 +172,42 @@ DoubleScatteringDirection::Polar DoubleScatteringDirection::polar(Vec3 w) const 
   return p;
 }
 
+float DoubleScatteringDirection::isotropic_pdf(float angle_from_behind, float sin_theta) {
+  return angle_from_behind / (pi * pi * pi * sin_theta);
+}
+
+/// dy / dtheta
+float DoubleScatteringDirection::polar_slope(const Polar& p) const {
+  const float k = tables_->k_theta();
+  return 0.5f * k / sqr(p.cos_half + k * p.sin_half);
+}
+
+/// deta / dphi over both signs of phi
+float DoubleScatteringDirection::azimuth_slope(const Polar& p, float e) const {
+  return 0.25f * e / sqr(e * p.cos_half_azimuth + p.sin_half_azimuth);
+}
+
 float DoubleScatteringDirection::pdf(Vec3 w) const {
   if (!is_proper_) return 0;
   const Polar p = polar(w);
-  if (tables_->is_isotropic()) {
-    const float rest = 2 * std::atan2(p.cos_half, p.sin_half);  // pi - theta
-    return density_or_zero(rest / (pi * pi * pi * p.sin_theta()));
-  }
-  return density_or_zero(polar_pdf(p) * azimuth_pdf(p) / p.sin_theta());
-}
-
-/// Density of theta [1/rad].
-float DoubleScatteringDirection::polar_pdf(const Polar& p) const {
-  const float k = tables_->k_theta(), sum = p.cos_half + k * p.sin_half;
-  const float y = k * p.sin_half / sum;
-  const bool is_above = is_any_direction_ || y >= y_alpha_;
-  const ThetaWarp warp{y_alpha_, is_above};
+  if (tables_->is_isotropic())
+    return density_or_zero(
+        isotropic_pdf(2 * std::atan2(p.cos_half, p.sin_half), p.sin_theta()));
+  const auto [warp, z, e, eta] = table_point(p);
   if (!(warp.width() > 0)) return 0;
-  const float z = warp.z(y);
-  return half(is_above).density(z) / warp.slope(z) * (0.5f * k / sqr(sum));
+  return density_or_zero(half(warp.is_above).density(z) / warp.slope(z) * polar_slope(p) *
+                         azimuth(e).density(eta) * azimuth_slope(p, e) / p.sin_theta());
 }
 
-/// Density of phi [1/rad].
-float DoubleScatteringDirection::azimuth_pdf(const Polar& p) const {
+DoubleScatteringDirection::TablePoint DoubleScatteringDirection::table_point(
+    const Polar& p) const {
+  const float k = tables_->k_theta(), y = k * p.sin_half / (p.cos_half + k * p.sin_half);
+  const ThetaWarp warp{y_alpha_, is_any_direction_ || y >= y_alpha_};
   const float e = azimuth_ratio(p);
-  const float sum = e * p.cos_half_azimuth + p.sin_half_azimuth;
-  const float eta = p.sin_half_azimuth / sum;
-  return 0.25f * azimuth(p).density(eta) * e / sqr(sum);
+  return {.warp = warp,
+          .z = warp.width() > 0 ? warp.z(y) : 0,
+          .e = e,
+          .eta = p.sin_half_azimuth / (e * p.cos_half_azimuth + p.sin_half_azimuth)};
 }
 
 Vec2 DoubleScatteringDirection::invert(Vec3 w) const {
@@ -190,15 +218,10 @@ Vec2 DoubleScatteringDirection::invert(Vec3 w) const {
     const float phi = std::atan2(dot(w, frame_.y), dot(w, frame_.x)) * (0.5f * inv_pi);
     return {std::clamp(theta * (2 - theta), 0.0f, 1.0f), phi < 0 ? phi + 1 : phi};
   }
-  const float k = tables_->k_theta(), y = k * p.sin_half / (p.cos_half + k * p.sin_half);
-  const bool is_above = is_any_direction_ || y >= y_alpha_;
-  const ThetaWarp warp{y_alpha_, is_above};
-  const float below = is_above && !is_any_direction_ ? half(false).mass() : 0;
-  const float part = warp.width() > 0 ? half(is_above).cdf(warp.z(y)) : 0;
-  const float e = azimuth_ratio(p);
-  const float eta = p.sin_half_azimuth / (e * p.cos_half_azimuth + p.sin_half_azimuth);
-  const float v = azimuth(p).cdf(eta);
-  return {std::clamp(below + part, 0.0f, 1.0f),
+  const auto [warp, z, e, eta] = table_point(p);
+  const float below = warp.is_above && !is_any_direction_ ? half(false).mass() : 0;
+  const float v = azimuth(e).cdf(eta);
+  return {std::clamp(below + half(warp.is_above).cdf(z), 0.0f, 1.0f),
           std::clamp(0.5f + (p.is_negative ? -0.5f : 0.5f) * v, 0.0f, 1.0f)};
 }
 

@@ -33,15 +33,20 @@ class DoubleScatteringDirection {
 
  private:
   struct Polar;
+  struct TablePoint;
 
   void look_at(Vec3 b, Vec3 pivot);
-  Vec3 sample_tables(Vec2 u) const;
+  std::optional<DoubleDirectionSample> sample_isotropic(Vec2 u) const;
+  std::optional<DoubleDirectionSample> sample_tables(Vec2 u) const;
+  static float isotropic_pdf(float angle_from_behind, float sin_theta);
+  float sin_theta_of(Vec3 w) const;
   Polar polar(Vec3 w) const;
+  TablePoint table_point(const Polar& polar) const;
   LinearRows::Blend half(bool is_above) const;
-  LinearRows::Blend azimuth(const Polar& polar) const;
+  LinearRows::Blend azimuth(float e) const;
   float azimuth_ratio(const Polar& polar) const;
-  float polar_pdf(const Polar& polar) const;
-  float azimuth_pdf(const Polar& polar) const;
+  float polar_slope(const Polar& polar) const;
+  float azimuth_slope(const Polar& polar, float e) const;
 
   const ScatteringTables* tables_;
   double x_ = 0, y_ = 0, z_ = 1;  // unit vector to the pivot

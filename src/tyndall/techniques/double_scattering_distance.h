@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <optional>
 
 #include "tyndall/techniques/distance_taps.h"
@@ -22,16 +24,14 @@ class DoubleScatteringDistance {
  public:
   DoubleScatteringDistance(const ScatteringTables& tables, const Ray& ray, Vec3 pivot,
                            float t_min, float t_max)
-      : DoubleScatteringDistance(tables, PivotSegment(ray, pivot, t_min, t_max)) {}
-  DoubleScatteringDistance(const ScatteringTables& tables, const PivotSegment& segment)
-      : segment_(segment) {
-    if (!segment.is_proper() || !(segment.length() < infinity)) return;
-    length_ = density_or_zero(log_way(segment.length()));
+      : segment_(ray, pivot, t_min, t_max) {
+    if (!segment_.is_proper() || !(segment_.length() < infinity)) return;
+    length_ = density_or_zero(log_way(segment_.length()));
     if (!tables.is_isotropic()) {
-      const float l = std::log(segment.plus_near() > segment.h()
-                                   ? segment.plus_near() / segment.h()
-                                   : segment.h() / segment.minus_near());
-      fluence_ = tables.fluence().cursor(segment.is_forward() ? l : -l, !segment.is_forward());
+      const float l = std::log(segment_.plus_near() > segment_.h()
+                                   ? segment_.plus_near() / segment_.h()
+                                   : segment_.h() / segment_.minus_near());
+      fluence_ = tables.fluence().cursor(segment_.is_forward() ? l : -l, !segment_.is_forward());
       is_tabulated_ = true;
     }
     integral_ = density_or_zero(is_tabulated_ ? fluence_.integral(length_) : length_);
@@ -95,30 +95,25 @@ DistanceTaps<K> DoubleScatteringDistance::taps() const {
   // power of one ratio.
   constexpr int lanes = 8;
   static_assert(K % lanes == 0);
-  const float sign = segment_.is_forward() ? 1.0f : -1.0f;
+  const float sign = segment_.sign();
   const float step = length_ / K;
-  float ratio[lanes], inverse[lanes];  // of r + s to that of the near end
-  for (int i = 0; i < lanes; ++i) {
-    const float part = (static_cast<float>(i) + 0.5f) * step;
-    ratio[i] = std::exp(segment_.is_forward() ? part : length_ - part);
-    inverse[i] = 1 / ratio[i];
-  }
-  const float turn = std::exp(sign * lanes * step), inverse_turn = 1 / turn;
-  const float plus = segment_.plus_near(), minus = segment_.minus_near();
-  const float t_near = segment_.is_forward() ? segment_.t_min() : segment_.t_max();
-  const float s_near = segment_.s_near();
+  const float half_step = std::exp(sign * 0.5f * step), one_step = half_step * half_step;
+  float ratio[lanes];  // of r + s to that of the near end
+  ratio[0] = (segment_.is_forward() ? 1 : std::exp(length_)) * half_step;
+  float turn = one_step;
+  for (int width = 1; width < lanes; width *= 2, turn *= turn)
+    for (int i = 0; i < width; ++i) ratio[width + i] = ratio[i] * turn;
   DistanceTaps<K> taps;
-  for (int block = 0; block < K / lanes; ++block) {
-    for (int i = 0; i < lanes; ++i) {
-      const int k = block * lanes + i;
-      const float p = plus * ratio[i], m = minus * inverse[i];
-      const float s = 0.5f * (p - m), r = 0.5f * (p + m);
-      taps.t[k] = t_near + sign * (s - s_near);
-      taps.distance[k] = r;
-      taps.cos_alpha[k] = -sign * s / r;
-      ratio[i] *= turn;
-      inverse[i] *= inverse_turn;
-    }
+  std::array<float, K>& x = taps.t;
+  std::copy(ratio, ratio + lanes, x.begin());
+  for (int k = 0; k + lanes < K; ++k) x[k + lanes] = x[k] * turn;
+  const float plus = 0.5f * segment_.plus_near(), minus = 0.5f * segment_.minus_near();
+  const float t_near = segment_.t_near(), s_near = segment_.s_near();
+  for (int k = 0; k < K; ++k) {
+    const float p = plus * x[k], m = minus / x[k], s = p - m, r = p + m;
+    taps.distance[k] = r;
+    taps.cos_alpha[k] = -sign * s / r;
+    taps.t[k] = t_near + sign * (s - s_near);
   }
   return taps;
 }

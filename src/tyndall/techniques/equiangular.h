@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <optional>
 
 #include "tyndall/techniques/distance_taps.h"
@@ -8,6 +10,33 @@
 #include "tyndall/techniques/samples.h"
 
 namespace tyndall {
+
+/// The integral of 1 / D^2 from the near end of a stretch to an offset: the angle under which the
+/// pivot sees it, over h. As the arc tangent of a quotient of products it keeps its relative
+/// precision for small angles, and is defined for h = 0.
+inline float inverse_square_integral(const PivotSegment& segment, float offset) {
+  const double h = segment.h(), s0 = segment.s_near();
+  const bool is_finite = offset < infinity;
+  const double cosine = is_finite ? h * h + s0 * (s0 + offset) : s0;
+  const double sine_over_h = is_finite ? offset : 1;
+  const auto tangent_over_h = static_cast<float>(sine_over_h / cosine);
+  const float tangent = segment.h() * tangent_over_h;
+  if (cosine > 0)
+    return tangent > 0 ? std::atan(tangent) / tangent * tangent_over_h : tangent_over_h;
+  const float angle = cosine < 0 ? pi + std::atan(tangent) : 0.5f * pi;
+  return angle / segment.h();
+}
+
+/// The offset up to which inverse_square_integral() is `part`: the near end's direction from the
+/// pivot turned by the angle h * part.
+inline float inverse_square_offset(const PivotSegment& segment, float part) {
+  const float angle = segment.h() * part;
+  const float sine_over_h = angle > 0 ? std::sin(angle) / angle * part : part;
+  const float cosine = std::cos(angle) - segment.s_near() * sine_over_h;
+  if (!(cosine > 0)) return segment.length();
+  const float r = segment.r_near();
+  return std::min(r * sine_over_h * (r / cosine), segment.length());
+}
 
 /// Draws distances in [t_min, t_max] with density proportional to the inverse squared distance
 /// to `pivot`, usually a point on a light [KF12]: single scattering without its phase function.
@@ -17,11 +46,10 @@ namespace tyndall {
 class EquiangularSampling {
  public:
   EquiangularSampling(const Ray& ray, Vec3 pivot, float t_min, float t_max)
-      : EquiangularSampling(PivotSegment(ray, pivot, t_min, t_max)) {}
-  explicit EquiangularSampling(const PivotSegment& segment)
-      : segment_(segment),
-        integral_(segment.is_proper() ? density_or_zero(inverse_square(segment.length()))
-                                      : 0) {}
+      : segment_(ray, pivot, t_min, t_max) {
+    if (segment_.is_proper())
+      integral_ = density_or_zero(inverse_square_integral(segment_, segment_.length()));
+  }
 
   /// The integral of the inverse squared distance over the stretch [1/scene unit]: what the
   /// weight of a sample is where nothing else varies. Zero if the technique is empty.
@@ -30,7 +58,8 @@ class EquiangularSampling {
   /// Empty if the stretch is empty or runs through the pivot. t grows with u.
   std::optional<DistanceSample> sample(float u) const {
     if (!(integral_ > 0)) return std::nullopt;
-    const float t = segment_.t(offset(segment_.from_near(u) * integral_));
+    const float t = segment_.t(
+        inverse_square_offset(segment_, segment_.from_near(u) * integral_));
     const float pdf = pdf_t(t);
     if (!(pdf > 0)) return std::nullopt;
     return DistanceSample{.t = t, .pdf_t = pdf};
@@ -47,7 +76,8 @@ class EquiangularSampling {
   float invert(float t) const {
     if (!(integral_ > 0)) return 0;
     const float offset = std::clamp(segment_.offset(t), 0.0f, segment_.length());
-    return segment_.from_near(std::min(inverse_square(offset) / integral_, 1.0f));
+    return segment_.from_near(
+        std::min(inverse_square_integral(segment_, offset) / integral_, 1.0f));
   }
 
   /// The points at u = (i + 1/2) / K; t to about 1e-5 of its range.
@@ -57,73 +87,65 @@ class EquiangularSampling {
   const PivotSegment& segment() const { return segment_; }
 
  private:
-  /// The integral of 1 / (h^2 + s^2) from the near end to an offset: the angle under which the
-  /// pivot sees the stretch, over h. As the arc tangent of a quotient of products it keeps its
-  /// relative precision for small angles, and is defined for h = 0.
-  float inverse_square(float offset) const {
-    const double h = segment_.h(), s0 = segment_.s_near();
-    const bool is_finite = offset < infinity;
-    const double cosine = is_finite ? h * h + s0 * (s0 + offset) : s0;
-    const double sine_over_h = is_finite ? offset : 1;
-    const auto tangent = static_cast<float>(h * sine_over_h / cosine);
-    const auto tangent_over_h = static_cast<float>(sine_over_h / cosine);
-    if (cosine > 0)
-      return tangent > 0 ? std::atan(tangent) / tangent * tangent_over_h : tangent_over_h;
-    const float angle = cosine < 0 ? pi + std::atan(tangent) : 0.5f * pi;
-    return angle / segment_.h();
-  }
-
-  /// The offset up to which inverse_square() is `part`: the near end's direction from the pivot
-  /// turned by the angle h * part.
-  float offset(float part) const {
-    const float angle = segment_.h() * part;
-    const float sine_over_h = angle > 0 ? std::sin(angle) / angle * part : part;
-    const float cosine = std::cos(angle) - segment_.s_near() * sine_over_h;
-    if (!(cosine > 0)) return segment_.length();
-    const float r = segment_.r_near();
-    return std::min(r * sine_over_h * (r / cosine), segment_.length());
-  }
-
   PivotSegment segment_;
-  float integral_;
+  float integral_ = 0;
 };
 
 template <int K>
 DistanceTaps<K> EquiangularSampling::taps() const {
-  // The unit vector from the pivot turns by equal angles from tap to tap, so that each is the
-  // product of two rotations: eight of the first eight taps, and the power of one.
+  // The unit vector from the pivot turns by equal angles from tap to tap: the first eight by
+  // doubling, the rest by turning eight together. Sines are kept over h, which may be zero.
   constexpr int lanes = 8;
-  static_assert(K % lanes == 0);
-  const float h = segment_.h(), s0 = segment_.s_near(), r0 = segment_.r_near();
-  const float sign = segment_.is_forward() ? 1.0f : -1.0f;
-  const float step = integral_ / K;
-  // Sines are kept over h, which may be zero.
-  float cosine[lanes], sine[lanes];
-  for (int i = 0; i < lanes; ++i) {
-    const float part = (static_cast<float>(i) + 0.5f) * step;
-    const float near = segment_.is_forward() ? part : integral_ - part;
-    const float angle = h * near;
-    cosine[i] = std::cos(angle);
-    sine[i] = angle > 0 ? std::sin(angle) / angle * near : near;
-  }
-  const float turn = sign * h * lanes * step;
-  const float cos_turn = std::cos(turn);
-  const float sin_turn = turn != 0 ? std::sin(turn) / turn * sign * lanes * step
-                                   : sign * lanes * step;
-  const float h2 = h * h, r2 = r0 * r0, inv_r0 = 1 / r0;
-  const float t_near = segment_.is_forward() ? segment_.t_min() : segment_.t_max();
-  DistanceTaps<K> taps;
-  for (int block = 0; block < K / lanes; ++block) {
-    for (int i = 0; i < lanes; ++i) {
-      const float c = cosine[i], s = sine[i];
-      const float inverse = 1 / (c - s0 * s);
-      const int k = block * lanes + i;
-      taps.t[k] = t_near + sign * (r2 * s * inverse);
-      taps.distance[k] = r0 * inverse;
-      taps.cos_alpha[k] = -sign * (s0 * c + h2 * s) * inv_r0;
-      cosine[i] = c * cos_turn - h2 * s * sin_turn;
-      sine[i] = s * cos_turn + c * sin_turn;
+  static_assert(K % lanes == 0 && K >= 16);
+  struct Turn {
+    float cosine, sine;
+    Turn then(Turn b, float h2) const {
+      return {cosine * b.cosine - h2 * sine * b.sine, sine * b.cosine + cosine * b.sine};
     }
+  };
+  const float h = segment_.h(), s0 = segment_.s_near(), r0 = segment_.r_near(), h2 = h * h;
+  const float sign = segment_.sign();
+
+  // Half a step is at most pi / 32 wide, where these polynomials are exact to float precision.
+  const float half = sign * 0.5f * integral_ / K, square = h2 * half * half;
+  const Turn half_step{1 - square * (0.5f - square * (1.0f / 24 - square * (1.0f / 720))),
+                       half * (1 - square * (1.0f / 6 - square * (1.0f / 120)))};
+  const Turn step = half_step.then(half_step, h2);
+  Turn first{1, 0};
+  if (!segment_.is_forward()) {
+    const float s1 = segment_.s(segment_.length()), scale = 1 / (r0 * segment_.r(s1));
+    first = {(h2 + s0 * s1) * scale, segment_.length() * scale};
+  }
+  float cosine[lanes], sine[lanes];
+  Turn turn = step;
+  first = first.then(half_step, h2);
+  cosine[0] = first.cosine;
+  sine[0] = first.sine;
+  for (int width = 1; width < lanes; width *= 2, turn = turn.then(turn, h2)) {
+    for (int i = 0; i < width; ++i) {
+      const Turn next = Turn{cosine[i], sine[i]}.then(turn, h2);
+      cosine[width + i] = next.cosine;
+      sine[width + i] = next.sine;
+    }
+  }
+
+  DistanceTaps<K> taps;
+  std::array<float, K>& c = taps.cos_alpha;
+  std::array<float, K>& s = taps.t;
+  std::copy(cosine, cosine + lanes, c.begin());
+  std::copy(sine, sine + lanes, s.begin());
+  const float cos_turn = turn.cosine, sin_turn = turn.sine, sin_turn_h2 = h2 * turn.sine;
+  for (int k = 0; k + lanes < K; ++k) {
+    c[k + lanes] = c[k] * cos_turn - s[k] * sin_turn_h2;
+    s[k + lanes] = s[k] * cos_turn + c[k] * sin_turn;
+  }
+  const float t_near = segment_.t_near(), sign_r0 = sign * r0;
+  const float c_scale = -sign * s0 / r0, s_scale = -sign * h2 / r0;
+  for (int k = 0; k < K; ++k) {
+    const float r = r0 / (c[k] - s0 * s[k]), cos_alpha = c_scale * c[k] + s_scale * s[k];
+    taps.distance[k] = r;
+    taps.t[k] = t_near + sign_r0 * s[k] * r;
+    taps.cos_alpha[k] = cos_alpha;
   }
   return taps;
 }

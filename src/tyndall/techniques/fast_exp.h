@@ -6,20 +6,21 @@
 
 namespace tyndall {
 
-/// e^x for choosing densities by: relative error below 3e-6 for |x| < 87, clamped beyond, so
-/// always positive and finite (NaN gives some number in range). Loops over it are vectorised.
-inline float fast_exp(float x) {
-  // 2^y with y = n + f, |f| <= 1/2: n goes into the exponent, a polynomial takes f.
-  float y = x * 1.44269504f;
-  y = y > -125 ? y : -125;
-  y = y < 125 ? y : 125;
-  const auto n = static_cast<int32_t>(y + 256.5f) - 256;
-  const float f = y - static_cast<float>(n);
+/// e^-x of a depth x >= 0, for choosing densities by: relative error below 4e-6, no smaller than
+/// 1e-37, positive and finite whatever x is. Loops over it are vectorised.
+inline float fast_exp_minus(float x) {
+  // 2^-y with -y = n + f, |f| <= 1/2. Adding the large number leaves n in its low bits, which
+  // go into the exponent of a polynomial in f.
+  const float scaled = x * 1.44269504f;
+  const float y = scaled < 123 ? scaled : 123;
+  const float positive = y > 0 ? y : 0;
+  const float rounded = 12582912.0f - positive;
+  const float f = (12582912.0f - rounded) - positive;
   const float p =
-      1.0f +
-      f * (0.693147182f +
-           f * (0.240226462f + f * (0.0555033116f + f * (0.00961806f + f * 0.00133336f))));
-  return p * std::bit_cast<float>((n + 127) << 23);
+      0.999999261f +
+      f * (0.693121815f + f * (0.240247449f + f * (0.05591786f + f * 0.009570101f)));
+  return std::bit_cast<float>(std::bit_cast<int32_t>(p) +
+                              static_cast<int32_t>(std::bit_cast<uint32_t>(rounded) << 23));
 }
 
 }  // namespace tyndall

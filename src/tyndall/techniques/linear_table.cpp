@@ -29,6 +29,28 @@ LinearTable::LinearTable(std::span<const float> values, float x_min, float x_max
   assert(cells_ >= 1 && x_min < x_max);
   for (size_t i = 1; i < values.size(); ++i)
     integral_[i] = integral_[i - 1] + 0.5 * (double(values[i - 1]) + double(values[i]));
+  const auto cells = static_cast<size_t>(cells_);
+  guides_per_mass_ = cells_ / integral_.back();
+  guide_.resize(cells + 1, static_cast<uint16_t>(cells_ - 1));
+  for (size_t i = 0, cell = 0; i <= cells; ++i) {
+    while (cell + 1 < cells && integral_[cell + 1] * guides_per_mass_ <= double(i)) ++cell;
+    guide_[i] = static_cast<uint16_t>(cell);
+  }
+}
+
+/// The cell in which the integral from node 0 has the given value.
+int LinearTable::cell_at(double integral) const {
+  const double position = integral * guides_per_mass_;
+  const int guide = std::clamp(static_cast<int>(position), 0, cells_ - 1);
+  int low = guide_[static_cast<size_t>(guide)];
+  int count = guide_[static_cast<size_t>(guide) + 1] - low;
+  while (count > 0) {
+    const int half = (count + 1) / 2;
+    const bool is_below = integral_[static_cast<size_t>(low + half)] <= integral;
+    low += is_below ? half : 0;
+    count = is_below ? count - half : half - 1;
+  }
+  return low;
 }
 
 LinearTable::Cursor LinearTable::cursor(float x, bool is_reversed) const {
@@ -93,27 +115,27 @@ float LinearTable::Cursor::invert(float mass) const {
     if (rest <= first)
       return (way + std::min(invert_line_integral(start, slope, rest), room)) /
              table_->cells_per_x_;
+    // In the next cell the sums, which may be large, are still left alone.
+    if (i + 1 < cells) {
+      const float next_slope = node(i + 2) - node(i + 1);
+      if (rest - first <= line_integral(node(i + 1), next_slope, 1))
+        return (way + room + invert_line_integral(node(i + 1), next_slope, rest - first)) /
+               table_->cells_per_x_;
+    }
     const double target = sum(i + 1) + (rest - first);
-    const int j = last_node_below(target, i + 1);
+    const int cell = table_->cell_at(step_ * target);
+    const int j = std::max(step_ > 0 ? cell : cells - 1 - cell, i + 1);
     way += room + static_cast<float>(j - i - 1);
     rest = static_cast<float>(target - sum(j));
-    if (j < cells)
-      return (way + std::min(invert_line_integral(node(j), node(j + 1) - node(j), rest),
-                             1.0f)) /
-             table_->cells_per_x_;
+    const float b = j < cells ? node(j + 1) - node(j) : 0;
+    const float within = invert_line_integral(node(j), b, std::max(rest, 0.0f));
+    if (within <= 1) return (way + within) / table_->cells_per_x_;
+    // Beyond the last node, or by rounding beyond the cell.
+    if (j + 1 < cells) return (way + 1) / table_->cells_per_x_;
+    way += static_cast<float>(cells - j);
+    rest = static_cast<float>(target - sum(cells));
   }
   return (way + std::max(rest, 0.0f) / node(cells)) / table_->cells_per_x_;
-}
-
-int LinearTable::Cursor::last_node_below(double target, int from) const {
-  int low = from, count = table_->cells_ - from;  // sum(low) <= target, always
-  while (count > 0) {
-    const int half = (count + 1) / 2;
-    const bool is_below = sum(low + half) <= target;
-    low += is_below ? half : 0;
-    count = is_below ? count - half : half - 1;
-  }
-  return low;
 }
 
 }  // namespace tyndall

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -20,14 +22,19 @@ class LinearTable {
   Cursor cursor(float x, bool is_reversed = false) const;
 
   bool is_empty() const { return values_.empty(); }
-  int cells() const { return cells_; }
+  /// Number of floats held; a double counts as two.
+  size_t size() const { return values_.size() + 2 * integral_.size() + guide_.size() / 2; }
 
  private:
   std::vector<float> values_;
   std::vector<double> integral_;  // to each node, in cells: sums of small and large masses
+  std::vector<uint16_t> guide_;   // the cell where each of `cells` equal masses starts
   float x_min_ = 0, x_max_ = 0;
   int cells_ = 0;
   float cells_per_x_ = 0;
+  double guides_per_mass_ = 0;
+
+  int cell_at(double integral) const;
 };
 
 /// A point of a table and a direction. Distances `delta` from it are not negative. The table
@@ -46,21 +53,20 @@ class LinearTable::Cursor {
  private:
   friend class LinearTable;
   Cursor(const LinearTable* table, float position, bool is_reversed)
-      : table_(table), position_(position), is_reversed_(is_reversed) {}
+      : table_(table),
+        position_(position),
+        origin_(is_reversed ? table->cells_ : 0),
+        step_(is_reversed ? -1 : 1) {}
 
-  float node(int i) const { return table_->values_[index(i)]; }
-  double sum(int i) const {  // from node 0 of this direction to node i, up to a constant
-    const double s = table_->integral_[index(i)];
-    return is_reversed_ ? -s : s;
+  // Nodes are counted from the end where this direction starts.
+  float node(int i) const { return table_->values_[static_cast<size_t>(origin_ + step_ * i)]; }
+  /// The integral up to node i, but for a constant.
+  double sum(int i) const {
+    return step_ * table_->integral_[static_cast<size_t>(origin_ + step_ * i)];
   }
-  size_t index(int i) const {
-    return static_cast<size_t>(is_reversed_ ? table_->cells_ - i : i);
-  }
-  int last_node_below(double target, int from) const;
-
   const LinearTable* table_ = nullptr;
-  float position_ = 0;  // in cells from the first node of this direction; may be off the table
-  bool is_reversed_ = false;
+  float position_ = 0;  // in cells; may be off the table
+  int origin_ = 0, step_ = 1;
 };
 
 }  // namespace tyndall

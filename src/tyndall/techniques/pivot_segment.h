@@ -30,6 +30,7 @@ class PivotSegment {
     const double h2 = cx * cx + cy * cy + cz * cz;
     const double s_min = t_min - foot, s_max = t_max - foot;
     is_forward_ = std::abs(s_min) <= std::abs(s_max);
+    sign_ = is_forward_ ? 1.0f : -1.0f;
     const double s = is_forward_ ? s_min : -s_max;
     const double r = std::sqrt(h2 + s * s);
     h_ = static_cast<float>(std::sqrt(h2));
@@ -57,16 +58,18 @@ class PivotSegment {
   float t_max() const { return t_max_; }
   /// The near end is t_min, and offsets grow with t. Else it is t_max, and they fall.
   bool is_forward() const { return is_forward_; }
+  float sign() const { return sign_; }  ///< 1 if offsets grow with t, else -1
+  float t_near() const { return t_near_; }
 
   float plus_near() const { return plus_near_; }    ///< r + s at the near end, not cancelled
   float minus_near() const { return minus_near_; }  ///< r - s at the near end, not cancelled
 
   bool contains(float t) const { return t >= t_min_ && t <= t_max_; }
-  float offset(float t) const { return is_forward_ ? t - t_near_ : t_near_ - t; }
+  float offset(float t) const { return sign_ * (t - t_near_); }
   /// The t of an offset, within the stretch and finite.
   float t(float offset) const {
-    const float t = is_forward_ ? t_near_ + offset : t_near_ - offset;
-    return std::min(std::clamp(t, t_min_, t_max_), std::numeric_limits<float>::max());
+    return std::min(std::clamp(t_near_ + sign_ * offset, t_min_, t_max_),
+                    std::numeric_limits<float>::max());
   }
   float s(float offset) const { return s_near_ + offset; }
   float r(float s) const { return std::sqrt(h_ * h_ + s * s); }
@@ -81,7 +84,7 @@ class PivotSegment {
   }
 
  private:
-  float t_min_, t_max_, t_near_, length_;
+  float t_min_, t_max_, t_near_, length_, sign_;
   float h_, s_near_, r_near_, plus_near_, minus_near_;
   bool is_forward_;
 };

@@ -19,7 +19,7 @@ namespace tyndall {
 class PointNormalSampling {
  public:
   PointNormalSampling(const Ray& ray, Vec3 pivot, Vec3 n, float t_min, float t_max)
-      : PointNormalSampling(LitStretch(ray, pivot, n, t_min, t_max)) {}
+      : PointNormalSampling(lit_stretch(ray, pivot, n, t_min, t_max)) {}
 
   /// Empty if the light shines on no part of the stretch, or if the stretch runs along a line
   /// through the pivot. t grows with u.
@@ -62,18 +62,20 @@ class PointNormalSampling {
  private:
   /// The part of the stretch in front of the light.
   struct LitStretch {
-    LitStretch(const Ray& ray, Vec3 pivot, Vec3 n, float t_min, float t_max)
-        : ray(ray), pivot(pivot), n(n), t_min(t_min), t_max(t_max) {
-      const float slope = dot(n, ray.d);
-      const float edge = dot(n, pivot - ray.o) / slope;
-      if (slope > 0 && edge > t_min) this->t_min = edge;
-      if (slope < 0 && edge < t_max) this->t_max = edge;
-      if (!(slope != 0) && !(dot(n, ray.o - pivot) > 0)) this->t_max = t_min;
-    }
     Ray ray;
     Vec3 pivot, n;
     float t_min, t_max;
   };
+
+  static LitStretch lit_stretch(const Ray& ray, Vec3 pivot, Vec3 n, float t_min,
+                                float t_max) {
+    LitStretch lit{ray, pivot, n, t_min, t_max};
+    const float slope = dot(n, ray.d), height = dot(n, ray.o - pivot);
+    if (slope > 0) lit.t_min = std::max(t_min, -height / slope);
+    if (slope < 0) lit.t_max = std::min(t_max, -height / slope);
+    if (slope == 0 && !(height > 0)) lit.t_max = t_min;
+    return lit;
+  }
 
   explicit PointNormalSampling(const LitStretch& lit)
       : segment_(lit.ray, lit.pivot, lit.t_min, lit.t_max) {

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tyndall/techniques/scattering_tables.h"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <span>
+#include <vector>
 
 #include "tyndall/math/scalar.h"
 
@@ -182,6 +185,11 @@ LinearRows make_azimuth() {
   return {values, azimuth_rows};
 }
 
+const LinearRows& azimuth_table() {
+  static const LinearRows table = make_azimuth();
+  return table;
+}
+
 }  // namespace
 
 float ThetaWarp::z(float y) const {
@@ -190,7 +198,10 @@ float ThetaWarp::z(float y) const {
   return std::min(2 * q / (linear_part + root), 1.0f);
 }
 
-ScatteringTables::ScatteringTables(float g) : g_(g), k_(std::sqrt((1 + g) / (1 - g))) {
+ScatteringTables::ScatteringTables(float g) : g_(g),
+      k_(std::sqrt((1 + g) / (1 - g))),
+      k_theta_(g < 0 ? 1 : std::sqrt(k_)),
+      azimuth_(&azimuth_table()) {
   assert(-1 < g && g < 1);
   if (is_isotropic()) return;
   arc_ = LinearTable(arc_values(g, std::sqrt((1 + double(g)) / (1 - double(g)))), 0, 1);
@@ -199,11 +210,6 @@ ScatteringTables::ScatteringTables(float g) : g_(g), k_(std::sqrt((1 + g) / (1 -
   fluence_ = make_fluence(integrand, g, k);
   theta_ = make_theta(integrand, k);
   theta_of_any_direction_ = make_theta_of_any_direction(integrand);
-}
-
-const LinearRows& azimuth_table() {
-  static const LinearRows table = make_azimuth();
-  return table;
 }
 
 }  // namespace tyndall

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <vector>
+#include <cstddef>
 
 #include "tyndall/techniques/linear_rows.h"
 #include "tyndall/techniques/linear_table.h"
@@ -10,7 +10,7 @@ namespace tyndall {
 
 /// What the joint sampling of single and double scattering knows about a phase function: tables
 /// for the Henyey-Greenstein phase function of one asymmetry, shared by all rays. Immutable;
-/// build one per medium (a few ten milliseconds; about 20 k floats). Techniques keep a pointer
+/// build one per medium (a few ten milliseconds; about 33 k floats). Techniques keep a pointer
 /// to it. At g = 0 there are no tables, and the techniques use closed forms [Georgiev13].
 ///
 /// Angles are kept as y = k v / (1 + k v) in [0, 1], v the tangent of half the angle and
@@ -24,8 +24,9 @@ class ScatteringTables {
   float g() const { return g_; }
   bool is_isotropic() const { return g_ == 0; }
   float k() const { return k_; }  ///< of arc(): sqrt((1 + g) / (1 - g))
-  /// Of theta(). Backward scattering has its two peaks at opposite ends.
-  float k_theta() const { return g_ < 0 ? 1 : k_; }
+  /// Of theta(): less than k(), to resolve the neighbourhood of pi as well, where the light
+  /// scattered once along a direction vanishes; one if g < 0.
+  float k_theta() const { return k_theta_; }
 
   /// The phase function over angles, in y: the integral of rho(cos a) da.
   const LinearTable& arc() const { return arc_; }
@@ -39,20 +40,25 @@ class ScatteringTables {
   /// The polar angle if light arrives at the first vertex from everywhere alike: the upper
   /// half for alpha = 0. Mass one.
   const LinearRows& theta_of_any_direction() const { return theta_of_any_direction_; }
+  /// The azimuth phi of double scattering, the same for all phase functions: the density
+  /// (1 - k cos phi)^(-3/2), k = (1 - e^2) / (1 + e^2), over
+  /// eta = tan(phi/2) / (e + tan(phi/2)). Row i is e = (i / (rows - 1))^2. Each has mass one.
+  const LinearRows& azimuth() const { return *azimuth_; }
 
-  static constexpr int alpha_rows = 64;   ///< values of alpha in theta()
+  /// Number of floats held, the shared azimuth() left out; a double counts as two.
+  size_t size() const {
+    return arc_.size() + fluence_.size() + theta_.size() + theta_of_any_direction_.size();
+  }
+
+  static constexpr int alpha_rows = 96;   ///< values of alpha in theta()
   static constexpr int theta_cells = 64;  ///< per half of theta()
 
  private:
-  float g_, k_;
+  float g_, k_, k_theta_;
   LinearTable arc_, fluence_;
   LinearRows theta_, theta_of_any_direction_;
+  const LinearRows* azimuth_;  // shared by all
 };
-
-/// The azimuth of double scattering, the same table for all phase functions: the density
-/// (1 - k cos phi)^(-3/2), k = (1 - e^2) / (1 + e^2), over eta = tan(phi/2) / (e + tan(phi/2)).
-/// Row i is e = (i / (rows - 1))^2. Each has mass one.
-const LinearRows& azimuth_table();
 
 /// Where a half of a theta row has its nodes: z in [0, 1] from theta = alpha (z = 0) outwards,
 /// fine where the phase function of the first vertex has its peak. `a` is y(alpha).
@@ -60,7 +66,7 @@ struct ThetaWarp {
   float a;
   bool is_above;  ///< theta > alpha
 
-  static constexpr float linear_part = 0.2f;
+  static constexpr float linear_part = 0.05f;
 
   float width() const { return is_above ? 1 - a : a; }
   /// y(theta) at z.

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <optional>
-#include <variant>
 
 #include "tyndall/techniques/equiangular.h"
 #include "tyndall/techniques/scattering_tables.h"
@@ -10,36 +9,31 @@
 namespace tyndall {
 
 /// Draws distances with density proportional to rho(cos alpha) / D^2, D the distance to the
-/// pivot and alpha its angle from the ray: single scattering with its phase function, exact to
-/// the tables' few 1e-6. In the angle alpha the density is rho alone.
+/// pivot and alpha its angle from the ray: the only scattering vertex between a ray and a light,
+/// or the last of several, exact to the tables' few 1e-6. In the angle alpha the density is rho
+/// alone. In isotropic media, and for a pivot on the line of the ray, where alpha does not
+/// change, it is EquiangularSampling.
 ///
 /// A value, built once per ray and pivot; `ray.d` is unit length, t_max may be infinite.
-/// `tables` must outlive it and be anisotropic. Empty also if the pivot lies on the line of the
-/// ray, where alpha does not change: SingleScatteringDistance takes care of it.
-class AnisotropicSampling {
+/// `tables` must outlive it.
+class SingleScatteringDistance {
  public:
-  AnisotropicSampling(const ScatteringTables& tables, const PivotSegment& segment)
-      : segment_(segment),
-        k_(segment.is_forward() ? tables.k() : 1 / tables.k()),
-        tangent_near_(inverse_tangent(segment.s_near(), segment.r_near())),
-        arc_(tables.arc().cursor(segment.is_forward() ? k_ / (k_ + tangent_near_)
-                                                      : tangent_near_ / (k_ + tangent_near_),
-                                 !segment.is_forward())) {
-    if (segment.is_proper() && tangent_near_ < infinity)
-      integral_ = density_or_zero(arc_.integral(way(segment.length())));
+  SingleScatteringDistance(const ScatteringTables& tables, const Ray& ray, Vec3 pivot,
+                           float t_min, float t_max)
+      : segment_(ray, pivot, t_min, t_max) {
+    if (!segment_.is_proper()) return;
+    if (!tables.is_isotropic()) tabulate(tables);
+    if (!is_tabulated_)
+      integral_ = density_or_zero(inverse_square_integral(segment_, segment_.length()));
   }
 
-  bool is_empty() const { return !(integral_ > 0); }
-
-  /// t grows with u.
+  /// Empty if the stretch is empty or runs through the pivot. t grows with u.
   std::optional<DistanceSample> sample(float u) const {
-    if (is_empty()) return std::nullopt;
-    const float way = arc_.invert(segment_.from_near(u) * integral_);
-    // With c = 1 / tan(alpha / 2) as coordinate: the ratio of r + s to that of the near end.
-    const float sum = k_ + tangent_near_;
-    const float rest = tangent_near_ / sum - way;
-    const float ratio = way * sum / (k_ * rest);
-    const float t = segment_.t(rest > 0 ? segment_.offset_of_ratio(ratio) : segment_.length());
+    if (!(integral_ > 0)) return std::nullopt;
+    const float part = segment_.from_near(u) * integral_;
+    const float offset =
+        is_tabulated_ ? arc_offset(part) : inverse_square_offset(segment_, part);
+    const float t = segment_.t(offset);
     const float pdf = pdf_t(t);
     if (!(pdf > 0)) return std::nullopt;
     return DistanceSample{.t = t, .pdf_t = pdf};
@@ -47,76 +41,74 @@ class AnisotropicSampling {
 
   /// Density of sample() at t [1/scene unit]; zero where it never samples.
   float pdf_t(float t) const {
-    if (is_empty() || !segment_.contains(t)) return 0;
-    const float offset = segment_.offset(t);
-    const float s = segment_.s(offset), r = segment_.r(s), c = inverse_tangent(s, r);
-    const float slope = k_ / (k_ + c) * (c / (k_ + c)) / r;  // dy / dt
-    return density_or_zero(arc_.value(way(offset)) * slope / integral_);
+    if (!(integral_ > 0) || !segment_.contains(t)) return 0;
+    const float offset = segment_.offset(t), s = segment_.s(offset);
+    if (!is_tabulated_)
+      return density_or_zero(1 / (integral_ * (sqr(segment_.h()) + sqr(s))));
+    const float r = segment_.r(s), c = inverse_tangent(s, r);
+    const float inverse = 1 / (k_ + c);
+    const float slope = k_ * inverse * (c * inverse);  // r dy / dt
+    return density_or_zero(arc_.value(way(offset, r, c * inverse, inverse)) * slope /
+                           (r * integral_));
   }
 
   /// The u that sample() maps to t, in [0, 1]; zero if the technique is empty.
   float invert(float t) const {
-    if (is_empty()) return 0;
+    if (!(integral_ > 0)) return 0;
     const float offset = std::clamp(segment_.offset(t), 0.0f, segment_.length());
-    return segment_.from_near(std::min(arc_.integral(way(offset)) / integral_, 1.0f));
+    const float part =
+        is_tabulated_ ? arc_.integral(way(offset)) : inverse_square_integral(segment_, offset);
+    return segment_.from_near(std::min(part / integral_, 1.0f));
   }
 
  private:
-  /// 1 / tan(alpha / 2), alpha counted in the direction of s.
+  // With c = 1 / tan(alpha / 2), alpha counted in the direction of s, y(alpha) = k / (k + c).
+
+  void tabulate(const ScatteringTables& tables) {
+    k_ = segment_.is_forward() ? tables.k() : 1 / tables.k();
+    c_near_ = inverse_tangent(segment_.s_near(), segment_.r_near());
+    const float inverse = 1 / (k_ + c_near_);
+    rest_near_ = c_near_ * inverse;
+    way_scale_ = k_ * inverse;
+    arc_ = tables.arc().cursor(segment_.is_forward() ? way_scale_ : rest_near_,
+                               !segment_.is_forward());
+    const float integral = density_or_zero(arc_.integral(way(segment_.length())));
+    is_tabulated_ = integral > 0 && c_near_ < infinity;
+    integral_ = is_tabulated_ ? integral : 0;
+  }
+
   float inverse_tangent(float s, float r) const {
-    return s > 0 ? segment_.h() / (r + s) : (r - s) / segment_.h();
+    const float h = segment_.h(), sum = r + std::abs(s);
+    return (s > 0 ? h : sum) / (s > 0 ? sum : h);
   }
 
   /// y(alpha) at an offset minus y at the near end; no difference is taken.
   float way(float offset) const {
-    const float c0 = tangent_near_;
-    if (!(offset < infinity)) return c0 / (k_ + c0);
+    if (!(offset < infinity)) return rest_near_;
     const float s = segment_.s(offset), r = segment_.r(s), c = inverse_tangent(s, r);
-    return k_ * offset * ((c + c0) / (k_ + c)) / ((r + segment_.r_near()) * (k_ + c0));
+    const float inverse = 1 / (k_ + c);
+    return way(offset, r, c * inverse, inverse);
+  }
+  float way(float offset, float r, float rest, float inverse) const {
+    return way_scale_ * offset * (rest + c_near_ * inverse) / (r + segment_.r_near());
+  }
+
+  /// The offset up to which the integral of the phase function over alpha is `part`.
+  float arc_offset(float part) const {
+    const float way = arc_.invert(part);
+    const float rest = rest_near_ - way;
+    if (!(rest > 0)) return segment_.length();
+    return segment_.offset_of_ratio(way / (way_scale_ * rest));
   }
 
   PivotSegment segment_;
-  float k_;             // of the angle counted in the direction of s
-  float tangent_near_;  // 1 / tan(alpha / 2) at the near end
   LinearTable::Cursor arc_;
+  float k_ = 1;  // of the angle counted in the direction of s
+  float c_near_ = 0;
+  float rest_near_ = 0;  // 1 - y at the near end
+  float way_scale_ = 0;  // y at the near end
   float integral_ = 0;
-};
-
-/// The distance of the only scattering vertex, or of the last of several: AnisotropicSampling,
-/// or EquiangularSampling in isotropic media and for a pivot on the line of the ray.
-class SingleScatteringDistance {
- public:
-  SingleScatteringDistance(const ScatteringTables& tables, const Ray& ray, Vec3 pivot,
-                           float t_min, float t_max)
-      : SingleScatteringDistance(tables, PivotSegment(ray, pivot, t_min, t_max)) {}
-  SingleScatteringDistance(const ScatteringTables& tables, const PivotSegment& segment)
-      : technique_(choose(tables, segment)) {}
-
-  /// Empty if the stretch is empty or runs through the pivot. t grows with u.
-  std::optional<DistanceSample> sample(float u) const {
-    return std::visit([&](const auto& technique) { return technique.sample(u); }, technique_);
-  }
-  /// Density of sample() at t [1/scene unit]; zero where it never samples.
-  float pdf_t(float t) const {
-    return std::visit([&](const auto& technique) { return technique.pdf_t(t); }, technique_);
-  }
-  /// The u that sample() maps to t, in [0, 1]; zero if the technique is empty.
-  float invert(float t) const {
-    return std::visit([&](const auto& technique) { return technique.invert(t); }, technique_);
-  }
-
- private:
-  using Technique = std::variant<EquiangularSampling, AnisotropicSampling>;
-
-  static Technique choose(const ScatteringTables& tables, const PivotSegment& segment) {
-    if (!tables.is_isotropic()) {
-      const AnisotropicSampling anisotropic(tables, segment);
-      if (!anisotropic.is_empty()) return anisotropic;
-    }
-    return EquiangularSampling(segment);
-  }
-
-  Technique technique_;
+  bool is_tabulated_ = false;
 };
 
 }  // namespace tyndall
