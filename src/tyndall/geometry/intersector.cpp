@@ -287,8 +287,7 @@ class Intersector::Impl {
     for (;;) {
       rtcIntersect1(scenes_[0].get(), &context.embree, &query);
       if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-      if (const std::optional<SceneHit> hit = reconstruct(context, query, t_max))
-        return hit;
+      if (is_proper(context, query.hit)) return reconstruct(context, query, t_max);
       // It was the triangle that the ray starts from: go on behind it.
       query.ray.tnear = std::nextafter(query.ray.tfar, infinity);
       query.ray.tfar = t_max;
