@@ -24,13 +24,13 @@ struct DistanceWeights {
   /// Transmittance along the ray and from the tap to the pivot in a homogeneous medium.
   DistanceWeights& multiply_transmittance(const DistanceTaps<K>& taps, float sigma_t) {
     for (int i = 0; i < K; ++i)
-      values[i] *= fast_exp_minus(sigma_t * (taps.t[i] + taps.distance[i]));
+      values[i] *= fast_exp(-sigma_t * (taps.t[i] + taps.distance[i]));
     return *this;
   }
 
   /// exp(-depth): transmittance from optical depths, one per tap.
   DistanceWeights& multiply_transmittance(const std::array<float, K>& optical_depth) {
-    for (int i = 0; i < K; ++i) values[i] *= fast_exp_minus(optical_depth[i]);
+    for (int i = 0; i < K; ++i) values[i] *= fast_exp(-optical_depth[i]);
     return *this;
   }
 

@@ -24,7 +24,9 @@ class DoubleScatteringDistance {
  public:
   DoubleScatteringDistance(const ScatteringTables& tables, const Ray& ray, Vec3 pivot,
                            float t_min, float t_max)
-      : segment_(ray, pivot, t_min, t_max) {
+      : DoubleScatteringDistance(tables, PivotSegment(ray, pivot, t_min, t_max)) {}
+  DoubleScatteringDistance(const ScatteringTables& tables, const PivotSegment& segment)
+      : segment_(segment) {
     if (!segment_.is_proper() || !(segment_.length() < infinity)) return;
     length_ = density_or_zero(log_way(segment_.length()));
     if (!tables.is_isotropic()) {

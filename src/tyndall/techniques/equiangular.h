@@ -46,7 +46,8 @@ inline float inverse_square_offset(const PivotSegment& segment, float part) {
 class EquiangularSampling {
  public:
   EquiangularSampling(const Ray& ray, Vec3 pivot, float t_min, float t_max)
-      : segment_(ray, pivot, t_min, t_max) {
+      : EquiangularSampling(PivotSegment(ray, pivot, t_min, t_max)) {}
+  explicit EquiangularSampling(const PivotSegment& segment) : segment_(segment) {
     if (segment_.is_proper())
       integral_ = density_or_zero(inverse_square_integral(segment_, segment_.length()));
   }

@@ -20,7 +20,9 @@ class SingleScatteringDistance {
  public:
   SingleScatteringDistance(const ScatteringTables& tables, const Ray& ray, Vec3 pivot,
                            float t_min, float t_max)
-      : segment_(ray, pivot, t_min, t_max) {
+      : SingleScatteringDistance(tables, PivotSegment(ray, pivot, t_min, t_max)) {}
+  SingleScatteringDistance(const ScatteringTables& tables, const PivotSegment& segment)
+      : segment_(segment) {
     if (!segment_.is_proper()) return;
     if (!tables.is_isotropic()) tabulate(tables);
     if (!is_tabulated_)
