@@ -7,26 +7,34 @@
 #include "tyndall/math/bounds.h"
 #include "tyndall/math/transform.h"
 #include "tyndall/media/brick_grid.h"
+#include "tyndall/media/grid_emission.h"
 #include "tyndall/media/grid_space.h"
 #include "tyndall/media/majorant_grid.h"
 #include "tyndall/media/medium_properties.h"
 #include "tyndall/media/phase_function.h"
+#include "tyndall/media/placed_grid.h"
 
 namespace tyndall {
 
-/// A density grid that scales constant coefficients: trilinear between cell centres,
-/// samples beyond the border count as zero, nothing outside the box [PBRT4, Sec. 11.4].
+/// A density grid that scales constant coefficients, trilinear between samples; what pbrt calls
+/// "uniformgrid", "nanovdb" and, tabulated, "cloud" [PBRT4, Sec. 11.4]. Shares its grids with
+/// its copies.
 class GridMedium {
  public:
-  /// `bounds` is the box in medium space; without volume, the medium is empty. `density`
-  /// scales the coefficients; negative and non-finite values count as zero.
-  GridMedium(const DensityGrid& density, Bounds3 bounds, const Transform& world_from_medium,
-             MediumProperties properties, PhaseFunction phase);
+  /// `density` scales the coefficients and `emission` varies Le = properties.Le.
+  GridMedium(const PlacedGrid& density, const Transform& world_from_medium,
+             const MediumProperties& properties, PhaseFunction phase,
+             const GridEmission& emission = {});
+  /// place_in_box(density, bounds), with constant emission.
+  GridMedium(const DensityGrid& density, const Bounds3& bounds,
+             const Transform& world_from_medium, const MediumProperties& properties,
+             PhaseFunction phase);
 
   /// DDA over a coarse grid of majorants and means, empty cells skipped.
   class Segments {
    public:
-    Segments(const GridMedium& medium, const Ray& ray, float t_max) : medium_(&medium) {
+    Segments(const GridMedium& medium, const Ray& ray, float t_max)
+        : medium_(&medium), world_ray_(ray) {
       const auto clip = medium.space_.clip(ray, t_max, medium.box_);
       if (!clip) return;
       ray_ = clip->ray;
@@ -49,7 +57,7 @@ class GridMedium {
 
     /// The medium at a distance in the last segment; never above its majorant.
     MediumProperties at(float t) const {
-      return medium_->properties(std::min(density(t), majorant_));
+      return medium_->properties(std::min(density(t), majorant_), world_ray_.at(t));
     }
     Rgb sigma_t(float t) const {
       return medium_->sigma_t_ * std::min(density(t), majorant_);
@@ -61,13 +69,14 @@ class GridMedium {
 
    private:
     const GridMedium* medium_;
+    Ray world_ray_;
     GridRay ray_;
     float t_offset_ = 0;
     float majorant_ = 0;  // of the density in the last segment
     CellWalk walk_;
   };
 
-  MediumProperties at(Vec3 p) const { return properties(density(space_.point(p))); }
+  MediumProperties at(Vec3 p) const { return properties(density(space_.point(p)), p); }
   Segments segments(const Ray& ray, float t_max) const { return {*this, ray, t_max}; }
   bool is_emissive() const { return !is_black(properties_.sigma_a * properties_.Le); }
   bool is_grey() const {
@@ -81,12 +90,15 @@ class GridMedium {
   float density(Vec3 p_grid) const {
     return box_.contains(p_grid) ? density_->interpolate(p_grid) : 0;
   }
-  MediumProperties properties(float density) const {
-    return {properties_.sigma_a * density, properties_.sigma_s * density, properties_.Le};
+  MediumProperties properties(float density, Vec3 p) const {
+    const bool varies = emission_ && density > 0;
+    return {properties_.sigma_a * density, properties_.sigma_s * density,
+            varies ? properties_.Le * emission_->factor(p) : properties_.Le};
   }
 
   std::shared_ptr<const BrickGrid> density_;
   std::shared_ptr<const MajorantGrid> majorants_;
+  std::shared_ptr<const EmissionLookup> emission_;  // null if constant
   GridSpace space_;
   Bounds3 box_;  // in grid space
   Bounds3 world_bounds_;

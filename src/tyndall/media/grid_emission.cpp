@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tyndall/media/grid_emission.h"
+
+#include "tyndall/media/blackbody.h"
+
+namespace tyndall {
+
+EmissionLookup::EmissionLookup(const GridEmission& emission, const Transform& world_from_medium)
+    : scale_(make_field(emission.scale, world_from_medium)),
+      temperature_(make_field(emission.temperature, world_from_medium)),
+      temperature_offset_(emission.temperature_offset),
+      temperature_scale_(emission.temperature_scale) {}
+
+std::optional<EmissionLookup::Field> EmissionLookup::make_field(
+    const std::optional<PlacedGrid>& placed, const Transform& world_from_medium) {
+  if (!placed) return std::nullopt;
+  const Transform world_from_grid = world_from_medium * placed->medium_from_grid;
+  return Field{placed->grid, GridSpace(world_from_grid.inverse()), placed->box};
+}
+
+float EmissionLookup::Field::operator()(Vec3 p) const {
+  const Vec3 p_grid = space.point(p);
+  return box.contains(p_grid) ? grid->interpolate(p_grid) : 0;
+}
+
+Rgb EmissionLookup::factor(Vec3 p) const {
+  const float scale = scale_ ? (*scale_)(p) : 1;
+  if (scale == 0) return Rgb(0);
+  if (!temperature_) return Rgb(scale);
+  const float kelvin = ((*temperature_)(p)-temperature_offset_) * temperature_scale_;
+  return scale * blackbody_radiance(kelvin);
+}
+
+}  // namespace tyndall

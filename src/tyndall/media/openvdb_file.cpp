@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tyndall/media/openvdb_file.h"
+
+#include <fmt/format.h>
+#include <openvdb/io/File.h>
+#include <openvdb/openvdb.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "tyndall/media/volume_bricks.h"
+
+namespace tyndall {
+namespace {
+
+// Opens a file; the library's own exceptions become std::runtime_error, which say less of its
+// insides.
+template <typename F>
+auto with_file(const std::filesystem::path& path, F&& f) {
+  static const bool is_initialized = (openvdb::initialize(), true);
+  static_cast<void>(is_initialized);
+  try {
+    openvdb::io::File file(path.string());
+    file.open(/*delayLoad=*/false);
+    return f(file);
+  } catch (const openvdb::Exception& e) {
+    throw std::runtime_error(e.what());
+  }
+}
+
+Vec3i to_vec(const openvdb::Coord& c) { return {c.x(), c.y(), c.z()}; }
+Vec3 to_vec(const openvdb::Vec3d& v) {
+  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
+}
+
+template <typename GridType>
+void add_range(const openvdb::GridBase& base, VolumeGridInfo& info) {
+  if (!base.isType<GridType>()) return;
+  info.min = infinity;
+  info.max = -infinity;
+  for (auto it = static_cast<const GridType&>(base).cbeginValueOn(); it; ++it) {
+    const float v = static_cast<float>(*it);
+    info.min = std::min(info.min, v);
+    info.max = std::max(info.max, v);
+  }
+}
+
+// What stands in the file's directory.
+VolumeGridInfo make_name(const openvdb::GridBase& grid) {
+  const float unknown = std::numeric_limits<float>::quiet_NaN();
+  const bool is_points = grid.valueType().starts_with("ptdataidx");
+  return {.name = grid.getName(),
+          .type = is_points ? "points" : grid.valueType(),
+          .is_scalar = grid.isType<openvdb::FloatGrid>() || grid.isType<openvdb::DoubleGrid>(),
+          .first = {0, 0, 0},
+          .last = {-1, -1, -1},
+          .bounds = {},
+          .voxel_size = {},
+          .active_voxels = 0,
+          .memory = 0,
+          .min = unknown,
+          .max = unknown};
+}
+
+VolumeGridInfo make_info(const openvdb::GridBase& grid) {
+  VolumeGridInfo info = make_name(grid);
+  const openvdb::CoordBBox box = grid.evalActiveVoxelBoundingBox();
+  info.first = to_vec(box.min());
+  info.last = to_vec(box.max());
+  info.voxel_size = to_vec(grid.voxelSize());
+  info.active_voxels = grid.activeVoxelCount();
+  info.memory = grid.memUsage();
+  if (box.empty()) return info;
+  const openvdb::BBoxd real(box.min().asVec3d() - 0.5, box.max().asVec3d() + 0.5);
+  const openvdb::BBoxd world = grid.transform().indexToWorld(real);
+  info.bounds = {to_vec(world.min()), to_vec(world.max())};
+  add_range<openvdb::FloatGrid>(grid, info);
+  add_range<openvdb::DoubleGrid>(grid, info);
+  return info;
+}
+
+// 8^3 voxels: a leaf, or a tile of one value.
+template <typename Leaf>
+struct Block {
+  const Leaf* leaf;
+  float tile;
+
+  bool is_zero() const { return !leaf && tile == 0; }
+  float value(int i) const {
+    if (!leaf) return tile;
+    const openvdb::Index n = static_cast<openvdb::Index>(i);
+    return leaf->isValueOn(n) ? static_cast<float>(leaf->getValue(n)) : 0;
+  }
+};
+
+Matrix4 medium_from_voxel(const openvdb::GridBase& grid) {
+  if (!grid.transform().isLinear())
+    throw std::runtime_error(
+        fmt::format("grid \"{}\" is shaped like a frustum; only affine grids can be read",
+                    grid.getName()));
+  // OpenVDB multiplies row vectors from the left.
+  const openvdb::Mat4d map = grid.transform().baseMap()->getAffineMap()->getMat4();
+  Matrix4 m{};
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j)
+      m[static_cast<size_t>(i)][static_cast<size_t>(j)] = static_cast<float>(map(j, i));
+  return m;
+}
+
+template <typename GridType>
+PlacedGrid convert(const GridType& grid) {
+  using Tree = typename GridType::TreeType;
+  const openvdb::CoordBBox box = grid.evalActiveVoxelBoundingBox();
+  if (box.empty()) return empty_grid();
+  const BrickLayout layout = lay_out_bricks(to_vec(box.min()), to_vec(box.max()));
+  const Tree& tree = grid.tree();
+  const auto source = [&](Vec3i brick, BrickGrid::Samples samples) {
+    return fill_brick(layout, brick, samples, [&](Vec3i voxel) {
+      const openvdb::Coord at(voxel.x, voxel.y, voxel.z);
+      const auto* leaf = tree.probeConstLeaf(at);
+      const bool has_tile = !leaf && tree.isValueOn(at);
+      return Block<typename Tree::LeafNodeType>{
+          leaf, has_tile ? static_cast<float>(tree.getValue(at)) : 0};
+    });
+  };
+  return place_bricks(layout, medium_from_voxel(grid), source);
+}
+
+}  // namespace
+
+std::vector<VolumeGridInfo> list_openvdb_grids(const std::filesystem::path& path) {
+  return with_file(path, [](openvdb::io::File& file) {
+    std::vector<VolumeGridInfo> infos;
+    const openvdb::GridPtrVecPtr grids = file.getGrids();
+    for (const openvdb::GridBase::Ptr& grid : *grids) infos.push_back(make_info(*grid));
+    return infos;
+  });
+}
+
+std::vector<VolumeGridInfo> list_openvdb_names(const std::filesystem::path& path) {
+  return with_file(path, [](openvdb::io::File& file) {
+    std::vector<VolumeGridInfo> infos;
+    const openvdb::GridPtrVecPtr grids = file.readAllGridMetadata();
+    for (const openvdb::GridBase::Ptr& grid : *grids) infos.push_back(make_name(*grid));
+    return infos;
+  });
+}
+
+PlacedGrid read_openvdb_grid(const std::filesystem::path& path, const std::string& name) {
+  return with_file(path, [&](openvdb::io::File& file) {
+    const openvdb::GridBase::Ptr grid = file.readGrid(name);
+    if (const auto floats = openvdb::gridPtrCast<openvdb::FloatGrid>(grid))
+      return convert(*floats);
+    if (const auto doubles = openvdb::gridPtrCast<openvdb::DoubleGrid>(grid))
+      return convert(*doubles);
+    throw std::runtime_error(
+        fmt::format("grids of type {} hold no density", grid->valueType()));
+  });
+}
+
+}  // namespace tyndall

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tyndall/media/placed_grid.h"
+#include "tyndall/media/volume_file.h"
+
+namespace tyndall {
+
+/// The grids of a .vdb file. Throws std::runtime_error without the file's name.
+std::vector<VolumeGridInfo> list_openvdb_grids(const std::filesystem::path& path);
+
+/// Only their names and types, which is much faster.
+std::vector<VolumeGridInfo> list_openvdb_names(const std::filesystem::path& path);
+
+/// Reads the grid called `name`. Throws std::runtime_error without the file's name.
+PlacedGrid read_openvdb_grid(const std::filesystem::path& path, const std::string& name);
+
+}  // namespace tyndall

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tyndall/media/volume_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <optional>
+#include <stdexcept>
+
+#include "tyndall/media/nanovdb_file.h"
+#include "tyndall/media/openvdb_file.h"
+
+namespace tyndall {
+namespace {
+
+enum class Container { nanovdb, openvdb };
+
+Container container_of(std::ifstream& file) {
+  constexpr std::array<char, 8> openvdb_magic{' ', 'B', 'D', 'V', 0, 0, 0, 0};
+  constexpr std::array<char, 7> nanovdb_magic{'N', 'a', 'n', 'o', 'V', 'D', 'B'};
+  std::array<char, 8> head{};
+  file.read(head.data(), head.size());
+  file.clear();
+  if (head == openvdb_magic) return Container::openvdb;
+  if (std::equal(nanovdb_magic.begin(), nanovdb_magic.end(), head.begin()))
+    return Container::nanovdb;
+  throw std::runtime_error("it is neither an OpenVDB nor a NanoVDB file");
+}
+
+// Opens the file, hands it to f, and puts the file's name before what goes wrong.
+template <typename F>
+auto with_volume(const std::filesystem::path& path, F&& f) {
+  try {
+    std::ifstream file(path, std::ios::binary);
+    if (!file) throw std::runtime_error(std::strerror(errno));
+    return f(file, container_of(file));
+  } catch (const std::bad_alloc&) {
+    throw std::runtime_error(fmt::format("{}: not enough memory", path.string()));
+  } catch (const std::runtime_error& e) {
+    throw std::runtime_error(fmt::format("{}: {}", path.string(), e.what()));
+  }
+}
+
+std::string list_names(const std::vector<VolumeGridInfo>& grids) {
+  std::string list;
+  for (const VolumeGridInfo& grid : grids)
+    list += fmt::format("{}\"{}\" ({})", list.empty() ? "" : ", ", grid.name, grid.type);
+  return list.empty() ? "no grids" : list;
+}
+
+// The index of the first grid with a wanted name.
+size_t find_grid(const std::vector<VolumeGridInfo>& grids,
+                 std::span<const std::string_view> names) {
+  for (const std::string_view name : names) {
+    const auto found = std::find_if(grids.begin(), grids.end(), [&](const VolumeGridInfo& g) {
+      return g.name == name;
+    });
+    if (found == grids.end()) continue;
+    if (!found->is_scalar)
+      throw std::runtime_error(
+          fmt::format("grid \"{}\" is of type {}, a grid of numbers is needed; the file has {}",
+                      name, found->type, list_names(grids)));
+    return static_cast<size_t>(found - grids.begin());
+  }
+  throw std::runtime_error(fmt::format("there is no grid \"{}\"; the file has {}",
+                                       names.empty() ? "" : names.front(), list_names(grids)));
+}
+
+std::vector<VolumeGridInfo> infos_of(const std::vector<NanoVdbEntry>& entries) {
+  std::vector<VolumeGridInfo> infos;
+  for (const NanoVdbEntry& entry : entries) infos.push_back(entry.info);
+  return infos;
+}
+
+}  // namespace
+
+std::vector<VolumeGridInfo> list_volume_grids(const std::filesystem::path& path) {
+  return with_volume(path, [&](std::ifstream& file, Container container) {
+    return container == Container::openvdb ? list_openvdb_grids(path)
+                                           : infos_of(read_nanovdb_directory(file));
+  });
+}
+
+PlacedGrid read_volume(const std::filesystem::path& path,
+                       std::span<const std::string_view> names) {
+  return with_volume(path, [&](std::ifstream& file, Container container) {
+    if (container == Container::openvdb) {
+      const std::vector<VolumeGridInfo> grids = list_openvdb_names(path);
+      return read_openvdb_grid(path, grids[find_grid(grids, names)].name);
+    }
+    const std::vector<NanoVdbEntry> entries = read_nanovdb_directory(file);
+    return read_nanovdb_grid(file, entries[find_grid(infos_of(entries), names)]);
+  });
+}
+
+}  // namespace tyndall
