@@ -16,9 +16,7 @@ struct PhaseCase {
   double concentration = 0;  // of the cells about the peak
 };
 
-void PrintTo(const PhaseCase& c, std::ostream* out) {
-  *out << c.name;
-}
+void PrintTo(const PhaseCase& c, std::ostream* out) { *out << c.name; }
 
 const PhaseCase cases[] = {
     {"isotropic", IsotropicPhase{}},

@@ -30,18 +30,21 @@ Rgb integrate(double temperature) {
   double x = 0, y = 0, z = 0, white = 0;
   for (double w = 360.5; w < 830; w += 1) {
     const double light = planck(w, temperature);
-    const double y_bar = 0.821 * lobe(w, 568.8, 0.0213, 0.0247) + 0.286 * lobe(w, 530.9, 0.0613, 0.0322);
-    x += light * (0.362 * lobe(w, 442.0, 0.0624, 0.0374) +
-                  1.056 * lobe(w, 599.8, 0.0264, 0.0323) -
-                  0.065 * lobe(w, 501.1, 0.0490, 0.0382));
+    const double y_bar =
+        0.821 * lobe(w, 568.8, 0.0213, 0.0247) + 0.286 * lobe(w, 530.9, 0.0613, 0.0322);
+    x += light *
+         (0.362 * lobe(w, 442.0, 0.0624, 0.0374) + 1.056 * lobe(w, 599.8, 0.0264, 0.0323) -
+          0.065 * lobe(w, 501.1, 0.0490, 0.0382));
     y += light * y_bar;
-    z += light * (1.217 * lobe(w, 437.0, 0.0845, 0.0278) + 0.681 * lobe(w, 459.0, 0.0385, 0.0725));
+    z += light *
+         (1.217 * lobe(w, 437.0, 0.0845, 0.0278) + 0.681 * lobe(w, 459.0, 0.0385, 0.0725));
     white += y_bar;
   }
   const auto channel = [&](double a, double b, double c) {
     return static_cast<float>(std::fmax((a * x + b * y + c * z) / white, 0));
   };
-  return {channel(3.2404542, -1.5371385, -0.4985314), channel(-0.9692660, 1.8760108, 0.0415560),
+  return {channel(3.2404542, -1.5371385, -0.4985314),
+          channel(-0.9692660, 1.8760108, 0.0415560),
           channel(0.0556434, -0.2040259, 1.0572252)};
 }
 

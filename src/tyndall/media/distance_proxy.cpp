@@ -118,9 +118,7 @@ Rgb DistanceProxy::optical_depth(float t) const {
   return spread(sum);
 }
 
-Rgb DistanceProxy::transmittance(float t) const {
-  return exp(-1 * optical_depth(t));
-}
+Rgb DistanceProxy::transmittance(float t) const { return exp(-1 * optical_depth(t)); }
 
 Rgb DistanceProxy::sigma_t(float t) const {
   const size_t i = segment_at(t);
@@ -129,8 +127,6 @@ Rgb DistanceProxy::sigma_t(float t) const {
       {sigma_[0][i], channels_ == 1 ? 0 : sigma_[1][i], channels_ == 1 ? 0 : sigma_[2][i]});
 }
 
-float DistanceProxy::opacity() const {
-  return 1 - average(exp(-1 * spread(total_)));
-}
+float DistanceProxy::opacity() const { return 1 - average(exp(-1 * spread(total_))); }
 
 }  // namespace tyndall

@@ -5,7 +5,8 @@
 
 namespace tyndall {
 
-EmissionLookup::EmissionLookup(const GridEmission& emission, const Transform& world_from_medium)
+EmissionLookup::EmissionLookup(const GridEmission& emission,
+                               const Transform& world_from_medium)
     : scale_(make_field(emission.scale, world_from_medium)),
       temperature_(make_field(emission.temperature, world_from_medium)),
       temperature_offset_(emission.temperature_offset),

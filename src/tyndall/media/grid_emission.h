@@ -12,8 +12,8 @@
 
 namespace tyndall {
 
-/// What makes the emission of a grid medium vary. Le is multiplied by the value of `scale`, and
-/// by the colour of a black body at (temperature - offset) * temperature_scale [K].
+/// What makes the emission of a grid medium vary. Le is multiplied by the value of `scale`,
+/// and by the colour of a black body at (temperature - offset) * temperature_scale [K].
 struct GridEmission {
   std::optional<PlacedGrid> scale;        ///< [1]
   std::optional<PlacedGrid> temperature;  ///< times temperature_scale [K]

@@ -22,8 +22,8 @@ GridMedium::GridMedium(const PlacedGrid& density, const Transform& world_from_me
 }
 
 GridMedium::GridMedium(const DensityGrid& density, const Bounds3& bounds,
-                       const Transform& world_from_medium, const MediumProperties& properties,
-                       PhaseFunction phase)
+                       const Transform& world_from_medium,
+                       const MediumProperties& properties, PhaseFunction phase)
     : GridMedium(place_in_box(density, bounds), world_from_medium, properties,
                  std::move(phase)) {}
 

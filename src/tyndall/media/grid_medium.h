@@ -16,9 +16,9 @@
 
 namespace tyndall {
 
-/// A density grid that scales constant coefficients, trilinear between samples; what pbrt calls
-/// "uniformgrid", "nanovdb" and, tabulated, "cloud" [PBRT4, Sec. 11.4]. Shares its grids with
-/// its copies.
+/// A density grid that scales constant coefficients, trilinear between samples; what pbrt
+/// calls "uniformgrid", "nanovdb" and, tabulated, "cloud" [PBRT4, Sec. 11.4]. Shares its
+/// grids with its copies.
 class GridMedium {
  public:
   /// `density` scales the coefficients and `emission` varies Le = properties.Le.

@@ -9,6 +9,7 @@
 #include "tyndall/media/grid_medium.h"
 #include "tyndall/media/homogeneous_medium.h"
 #include "tyndall/media/medium_properties.h"
+#include "tyndall/media/rgb_grid_medium.h"
 
 namespace tyndall {
 
@@ -23,7 +24,7 @@ namespace tyndall {
 ///   const PhaseFunction& phase() const;
 /// Segments has  bool next(MediumSegment&)  that yields segments until it returns false;
 /// what no segment covers is empty space.
-using MediumVariant = std::variant<HomogeneousMedium, GridMedium>;
+using MediumVariant = std::variant<HomogeneousMedium, GridMedium, RgbGridMedium>;
 
 class Medium {
  public:

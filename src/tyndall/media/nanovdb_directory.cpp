@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The container of .nvdb files: segments of a 16-byte header, the grids' metadata with their
-// names, and the grids, packed one after the other.
+// The container of .nvdb files: segments of a 16-byte header, the grids' metadata with
+// their names, and the grids, packed one after the other.
 #include <fmt/format.h>
 
 #include <array>
@@ -21,9 +21,9 @@ constexpr size_t metadata_size = 176;
 constexpr uint32_t longest_name = 1 << 16;
 
 constexpr std::array<const char*, 20> type_names{
-    "unknown", "float", "double", "int16",  "int32", "int64",  "vec3s",
-    "vec3d",   "mask",  "half",   "uint32", "bool",  "rgba8",  "float4",
-    "float8",  "float16", "floatN", "vec4s", "vec4d", "index"};
+    "unknown", "float",   "double", "int16",  "int32", "int64", "vec3s",
+    "vec3d",   "mask",    "half",   "uint32", "bool",  "rgba8", "float4",
+    "float8",  "float16", "floatN", "vec4s",  "vec4d", "index"};
 
 constexpr bool is_scalar(uint32_t type) {
   return type == 1 || type == 2 || (type >= 13 && type <= 16);
@@ -42,8 +42,12 @@ class Record {
     std::memcpy(&value, bytes_.data() + offset, sizeof value);
     return value;
   }
-  std::string text() const { return {bytes_.data(), ::strnlen(bytes_.data(), bytes_.size())}; }
-  bool begins_with_magic() const { return std::memcmp(bytes_.data(), magic, sizeof magic) == 0; }
+  std::string text() const {
+    return {bytes_.data(), ::strnlen(bytes_.data(), bytes_.size())};
+  }
+  bool begins_with_magic() const {
+    return std::memcmp(bytes_.data(), magic, sizeof magic) == 0;
+  }
 
  private:
   std::vector<char> bytes_;
@@ -96,10 +100,10 @@ void check_version(const Record& header) {
   const uint32_t version = header.at<uint32_t>(8);
   const uint32_t major = version >> 21;
   if (major != supported_version)
-    throw std::runtime_error(
-        fmt::format("it was written by NanoVDB {}, only {}.x can be read; convert it anew with "
-                    "nanovdb_convert",
-                    major == 0 ? "before 32" : std::to_string(major), supported_version));
+    throw std::runtime_error(fmt::format(
+        "it was written by NanoVDB {}, only {}.x can be read; convert it anew with "
+        "nanovdb_convert",
+        major == 0 ? "before 32" : std::to_string(major), supported_version));
 }
 
 uint64_t size_of(std::ifstream& file) {

@@ -83,7 +83,8 @@ GridBytes unpack(std::ifstream& file, const NanoVdbEntry& entry) {
   file.seekg(static_cast<std::streamoff>(entry.offset));
   GridBytes bytes = allocate(entry.info.memory);
   if (entry.codec == 0) {
-    if (entry.packed_size < bytes.size) throw std::runtime_error("its directory is damaged");
+    if (entry.packed_size < bytes.size)
+      throw std::runtime_error("its directory is damaged");
     read_bytes(file, bytes.data.get(), bytes.size);
   } else if (entry.codec == 1) {
     unpack_zlib(file, entry.packed_size, bytes);
@@ -114,9 +115,8 @@ PlacedGrid convert(const GridBytes& bytes) {
   const auto& grid = *reinterpret_cast<const nanovdb::NanoGrid<Build>*>(bytes.data.get());
   const auto& box = grid.indexBBox();
   if (box.min()[0] > box.max()[0]) return empty_grid();
-  const BrickLayout layout =
-      lay_out_bricks({box.min()[0], box.min()[1], box.min()[2]},
-                     {box.max()[0], box.max()[1], box.max()[2]});
+  const BrickLayout layout = lay_out_bricks({box.min()[0], box.min()[1], box.min()[2]},
+                                            {box.max()[0], box.max()[1], box.max()[2]});
   const auto source = [&](Vec3i brick, BrickGrid::Samples samples) {
     const auto& root = grid.tree().root();
     return fill_brick(layout, brick, samples, [&](Vec3i voxel) {
@@ -145,13 +145,21 @@ PlacedGrid read_nanovdb_grid(std::ifstream& file, const NanoVdbEntry& entry) {
       static_cast<uint32_t>(header.mGridType) != entry.type)
     throw std::runtime_error("a grid is damaged");
   switch (header.mGridType) {
-    case nanovdb::GridType::Float: return convert<float>(bytes);
-    case nanovdb::GridType::Double: return convert<double>(bytes);
-    case nanovdb::GridType::Fp4: return convert<nanovdb::Fp4>(bytes);
-    case nanovdb::GridType::Fp8: return convert<nanovdb::Fp8>(bytes);
-    case nanovdb::GridType::Fp16: return convert<nanovdb::Fp16>(bytes);
-    case nanovdb::GridType::FpN: return convert<nanovdb::FpN>(bytes);
-    default: throw std::runtime_error(fmt::format("grids of type {} hold no density", entry.info.type));
+    case nanovdb::GridType::Float:
+      return convert<float>(bytes);
+    case nanovdb::GridType::Double:
+      return convert<double>(bytes);
+    case nanovdb::GridType::Fp4:
+      return convert<nanovdb::Fp4>(bytes);
+    case nanovdb::GridType::Fp8:
+      return convert<nanovdb::Fp8>(bytes);
+    case nanovdb::GridType::Fp16:
+      return convert<nanovdb::Fp16>(bytes);
+    case nanovdb::GridType::FpN:
+      return convert<nanovdb::FpN>(bytes);
+    default:
+      throw std::runtime_error(
+          fmt::format("grids of type {} hold no density", entry.info.type));
   }
 }
 

@@ -15,8 +15,8 @@
 namespace tyndall {
 namespace {
 
-// Opens a file; the library's own exceptions become std::runtime_error, which say less of its
-// insides.
+// Opens a file; the library's own exceptions become std::runtime_error, which say less of
+// its insides.
 template <typename F>
 auto with_file(const std::filesystem::path& path, F&& f) {
   static const bool is_initialized = (openvdb::initialize(), true);
@@ -51,17 +51,18 @@ void add_range(const openvdb::GridBase& base, VolumeGridInfo& info) {
 VolumeGridInfo make_name(const openvdb::GridBase& grid) {
   const float unknown = std::numeric_limits<float>::quiet_NaN();
   const bool is_points = grid.valueType().starts_with("ptdataidx");
-  return {.name = grid.getName(),
-          .type = is_points ? "points" : grid.valueType(),
-          .is_scalar = grid.isType<openvdb::FloatGrid>() || grid.isType<openvdb::DoubleGrid>(),
-          .first = {0, 0, 0},
-          .last = {-1, -1, -1},
-          .bounds = {},
-          .voxel_size = {},
-          .active_voxels = 0,
-          .memory = 0,
-          .min = unknown,
-          .max = unknown};
+  return {
+      .name = grid.getName(),
+      .type = is_points ? "points" : grid.valueType(),
+      .is_scalar = grid.isType<openvdb::FloatGrid>() || grid.isType<openvdb::DoubleGrid>(),
+      .first = {0, 0, 0},
+      .last = {-1, -1, -1},
+      .bounds = {},
+      .voxel_size = {},
+      .active_voxels = 0,
+      .memory = 0,
+      .min = unknown,
+      .max = unknown};
 }
 
 VolumeGridInfo make_info(const openvdb::GridBase& grid) {

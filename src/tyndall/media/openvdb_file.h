@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,10 @@
 #include "tyndall/media/volume_file.h"
 
 namespace tyndall {
+
+/// Checks that a .vdb file is as long as its directory says: the library reads truncated
+/// files without a word. Throws std::runtime_error without the file's name.
+void check_openvdb_size(std::ifstream& file);
 
 /// The grids of a .vdb file. Throws std::runtime_error without the file's name.
 std::vector<VolumeGridInfo> list_openvdb_grids(const std::filesystem::path& path);

@@ -16,11 +16,16 @@ namespace {
 
 }  // namespace
 
-std::vector<VolumeGridInfo> list_openvdb_grids(const std::filesystem::path& /*path*/) { fail(); }
+std::vector<VolumeGridInfo> list_openvdb_grids(const std::filesystem::path& /*path*/) {
+  fail();
+}
 
-std::vector<VolumeGridInfo> list_openvdb_names(const std::filesystem::path& /*path*/) { fail(); }
+std::vector<VolumeGridInfo> list_openvdb_names(const std::filesystem::path& /*path*/) {
+  fail();
+}
 
-PlacedGrid read_openvdb_grid(const std::filesystem::path& /*path*/, const std::string& /*name*/) {
+PlacedGrid read_openvdb_grid(const std::filesystem::path& /*path*/,
+                             const std::string& /*name*/) {
   fail();
 }
 

@@ -6,7 +6,8 @@
 namespace tyndall {
 namespace {
 
-// Cell centre x of [0, n] is the sample x + 1/2 of the grid, whose sample 0 is a border of zeros.
+// Cell centre x of [0, n] is the sample x + 1/2 of the grid, whose sample 0 is a border of
+// zeros.
 std::optional<Transform> grid_from_medium(const Bounds3& bounds, Vec3i resolution) {
   const Vec3 size = bounds.diagonal();
   if (!(size.x > 0 && size.y > 0 && size.z > 0) || !is_finite(size)) return std::nullopt;

@@ -13,11 +13,11 @@ namespace tyndall {
 struct PlacedGrid {
   std::shared_ptr<const BrickGrid> grid;
   Transform medium_from_grid;  ///< from sample coordinates
-  Bounds3 box;                 ///< in sample coordinates; zero outside; empty if the grid is
+  Bounds3 box;  ///< in sample coordinates; zero outside; empty if the grid is
 };
 
-/// Values at the cell centres of `bounds`, trilinear in between and fading into zeros beyond
-/// the border, cut at the border [PBRT4, Sec. 11.4]. Empty if the box has no volume.
+/// Values at the cell centres of `bounds`, trilinear in between and fading into zeros
+/// beyond the border, cut at the border [PBRT4, Sec. 11.4]. Empty if the box has no volume.
 PlacedGrid place_in_box(const DensityGrid& values, const Bounds3& bounds);
 
 }  // namespace tyndall

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <stdexcept>
@@ -13,43 +14,45 @@ namespace {
 // 256 MiB of table: 3.4e10 voxels.
 constexpr int64_t max_bricks = int64_t{1} << 26;
 
-constexpr int floor_to_brick(int64_t voxel) {
-  return static_cast<int>(voxel & ~int64_t{BrickGrid::edge - 1});
-}
+// The bricks along one axis; wide numbers, for anything may stand in a file.
+struct Axis {
+  int64_t first, last;  // active voxels
+
+  int64_t origin() const { return (first - 1) & ~int64_t{BrickGrid::edge - 1}; }
+  int64_t count() const { return (last + 1 - origin()) / BrickGrid::edge + 1; }
+  float sample(int64_t voxel) const { return static_cast<float>(voxel - origin()); }
+};
 
 }  // namespace
 
 BrickLayout lay_out_bricks(Vec3i first, Vec3i last) {
-  const auto extent = [](int a, int b) { return int64_t{b} - a + 1; };
-  const Vec3i origin{floor_to_brick(int64_t{first.x} - 1), floor_to_brick(int64_t{first.y} - 1),
-                     floor_to_brick(int64_t{first.z} - 1)};
-  const auto count = [](int from, int to) { return (int64_t{to} + 1 - from) / BrickGrid::edge + 1; };
-  const int64_t nx = count(origin.x, last.x), ny = count(origin.y, last.y),
-                nz = count(origin.z, last.z);
-  if (nx > max_bricks || ny > max_bricks || nz > max_bricks || nx * ny > max_bricks ||
-      nx * ny * nz > max_bricks)
-    throw std::runtime_error(fmt::format(
-        "the active voxels span {} x {} x {}, more than fits in memory",
-        extent(first.x, last.x), extent(first.y, last.y), extent(first.z, last.z)));
-  const auto vec = [&](Vec3i v, int by) {
-    return Vec3{static_cast<float>(v.x - origin.x + by), static_cast<float>(v.y - origin.y + by),
-                static_cast<float>(v.z - origin.z + by)};
+  const Axis x{first.x, last.x}, y{first.y, last.y}, z{first.z, last.z};
+  if (x.count() > max_bricks || y.count() > max_bricks || z.count() > max_bricks ||
+      x.count() * y.count() > max_bricks ||
+      x.count() * y.count() * z.count() > max_bricks ||
+      std::min({x.origin(), y.origin(), z.origin()}) < INT32_MIN)
+    throw std::runtime_error(
+        fmt::format("the active voxels span {} x {} x {}, more than fits in memory",
+                    x.last - x.first + 1, y.last - y.first + 1, z.last - z.first + 1));
+  const auto narrow = [](int64_t a, int64_t b, int64_t c) {
+    return Vec3i{static_cast<int>(a), static_cast<int>(b), static_cast<int>(c)};
   };
-  return {.origin = origin,
-          .brick_count = {static_cast<int>(nx), static_cast<int>(ny), static_cast<int>(nz)},
-          .box = {vec(first, -1), vec(last, 1)}};
+  return {.origin = narrow(x.origin(), y.origin(), z.origin()),
+          .brick_count = narrow(x.count(), y.count(), z.count()),
+          .box = {{x.sample(x.first - 1), y.sample(y.first - 1), z.sample(z.first - 1)},
+                  {x.sample(x.last + 1), y.sample(y.last + 1), z.sample(z.last + 1)}}};
 }
 
 PlacedGrid place_bricks(const BrickLayout& layout, const Matrix4& medium_from_voxel,
                         const BrickGrid::Source& source) {
   const std::optional<Transform> map = Transform::from_matrix(medium_from_voxel);
   if (!map) throw std::runtime_error("the grid's transform is not invertible");
-  PlacedGrid placed{
-      .grid = std::make_shared<BrickGrid>(layout.brick_count, source),
-      .medium_from_grid = *map * Transform::translate({static_cast<float>(layout.origin.x),
-                                                       static_cast<float>(layout.origin.y),
-                                                       static_cast<float>(layout.origin.z)}),
-      .box = layout.box};
+  PlacedGrid placed{.grid = std::make_shared<BrickGrid>(layout.brick_count, source),
+                    .medium_from_grid =
+                        *map * Transform::translate({static_cast<float>(layout.origin.x),
+                                                     static_cast<float>(layout.origin.y),
+                                                     static_cast<float>(layout.origin.z)}),
+                    .box = layout.box};
   if (placed.grid->is_empty()) placed.box = {};
   return placed;
 }

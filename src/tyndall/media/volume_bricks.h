@@ -17,7 +17,7 @@ namespace tyndall {
 struct BrickLayout {
   Vec3i origin;  ///< voxel at sample (0, 0, 0); a multiple of eight
   Vec3i brick_count;
-  Bounds3 box;   ///< in sample coordinates
+  Bounds3 box;  ///< in sample coordinates
 };
 
 /// The layout for active voxels in [first, last].
@@ -31,9 +31,9 @@ PlacedGrid place_bricks(const BrickLayout& layout, const Matrix4& medium_from_vo
 /// A grid without samples.
 PlacedGrid empty_grid();
 
-/// Fills a brick from the 2^3 blocks of voxels that it touches. block_at(Vec3i voxel) returns a
-/// block: is_zero(), and value(i) of voxel i = (x & 7) << 6 | (y & 7) << 3 | (z & 7), zero if
-/// inactive. Returns false if all blocks are zero.
+/// Fills a brick from the 2^3 blocks of voxels that it touches. block_at(Vec3i voxel)
+/// returns a block: is_zero(), and value(i) of voxel i = (x & 7) << 6 | (y & 7) << 3 | (z &
+/// 7), zero if inactive. Returns false if all blocks are zero.
 template <typename BlockAt>
 bool fill_brick(const BrickLayout& layout, Vec3i brick, BrickGrid::Samples samples,
                 BlockAt&& block_at) {

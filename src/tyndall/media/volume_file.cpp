@@ -25,7 +25,10 @@ Container container_of(std::ifstream& file) {
   std::array<char, 8> head{};
   file.read(head.data(), head.size());
   file.clear();
-  if (head == openvdb_magic) return Container::openvdb;
+  if (head == openvdb_magic) {
+    check_openvdb_size(file);
+    return Container::openvdb;
+  }
   if (std::equal(nanovdb_magic.begin(), nanovdb_magic.end(), head.begin()))
     return Container::nanovdb;
   throw std::runtime_error("it is neither an OpenVDB nor a NanoVDB file");
@@ -56,18 +59,19 @@ std::string list_names(const std::vector<VolumeGridInfo>& grids) {
 size_t find_grid(const std::vector<VolumeGridInfo>& grids,
                  std::span<const std::string_view> names) {
   for (const std::string_view name : names) {
-    const auto found = std::find_if(grids.begin(), grids.end(), [&](const VolumeGridInfo& g) {
-      return g.name == name;
-    });
+    const auto found =
+        std::find_if(grids.begin(), grids.end(),
+                     [&](const VolumeGridInfo& g) { return g.name == name; });
     if (found == grids.end()) continue;
     if (!found->is_scalar)
-      throw std::runtime_error(
-          fmt::format("grid \"{}\" is of type {}, a grid of numbers is needed; the file has {}",
-                      name, found->type, list_names(grids)));
+      throw std::runtime_error(fmt::format(
+          "grid \"{}\" is of type {}, a grid of numbers is needed; the file has {}", name,
+          found->type, list_names(grids)));
     return static_cast<size_t>(found - grids.begin());
   }
   throw std::runtime_error(fmt::format("there is no grid \"{}\"; the file has {}",
-                                       names.empty() ? "" : names.front(), list_names(grids)));
+                                       names.empty() ? "" : names.front(),
+                                       list_names(grids)));
 }
 
 std::vector<VolumeGridInfo> infos_of(const std::vector<NanoVdbEntry>& entries) {

@@ -17,29 +17,29 @@ namespace tyndall {
 /// What a volume file says of one of its grids.
 struct VolumeGridInfo {
   std::string name;
-  std::string type;    ///< "float", "vec3s", "points" ...
-  bool is_scalar;      ///< whether read_volume() takes it
-  Vec3i first, last;   ///< active voxels, inclusive; first > last if there are none
-  Bounds3 bounds;      ///< of the active voxels, in the file's space
-  Vec3 voxel_size;     ///< in the file's space
+  std::string type;   ///< "float", "vec3s", "points" ...
+  bool is_scalar;     ///< whether read_volume() takes it
+  Vec3i first, last;  ///< active voxels, inclusive; first > last if there are none
+  Bounds3 bounds;     ///< of the active voxels, in the file's space
+  Vec3 voxel_size;    ///< in the file's space
   uint64_t active_voxels;
-  uint64_t memory;     ///< uncompressed, as the file stores it [bytes]
-  float min, max;      ///< of the active voxels; NaN if not known
+  uint64_t memory;  ///< uncompressed, as the file stores it [bytes]
+  float min, max;   ///< of the active voxels; NaN if not known
 };
 
 /// The grids of a .vdb or .nvdb file, told apart by their contents.
 /// Throws std::runtime_error that names the file if it cannot be read.
 std::vector<VolumeGridInfo> list_volume_grids(const std::filesystem::path& path);
 
-/// Reads the first grid of the file that has one of `names`, in their order of preference; its
-/// medium space is the file's. Inactive voxels count as zero, and so does what is negative,
-/// infinite or not a number: see BrickGrid::rejected().
-/// Throws std::runtime_error that names the file, and the grids found if none has the name.
+/// Reads the first grid of the file that has one of `names`, in their order of preference;
+/// its medium space is the file's. Inactive voxels count as zero, and so does what is
+/// negative, infinite or not a number: see BrickGrid::rejected(). Throws std::runtime_error
+/// that names the file, and the grids found if none has the name.
 PlacedGrid read_volume(const std::filesystem::path& path,
                        std::span<const std::string_view> names);
 
 /// Names of grids that mean a temperature, in order of preference.
-inline constexpr std::string_view temperature_grid_names[] = {"temperature", "flame", "flames",
-                                                              "heat"};
+inline constexpr std::string_view temperature_grid_names[] = {"temperature", "flame",
+                                                              "flames", "heat"};
 
 }  // namespace tyndall

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The directory of .vdb files: a header, the file's metadata, and before each grid its
+// name, type, parent, and the places where the grid begins and ends.
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+
+#include "tyndall/media/openvdb_file.h"
+
+namespace tyndall {
+namespace {
+
+constexpr uint32_t oldest_version = 222, newest_version = 224;
+
+template <typename T>
+T read(std::ifstream& file) {
+  T value{};
+  if (!file.read(reinterpret_cast<char*>(&value), sizeof value))
+    throw std::runtime_error("the file ends within its directory");
+  return value;
+}
+
+void skip(std::ifstream& file, int64_t size) { file.seekg(size, std::ios::cur); }
+
+std::string read_string(std::ifstream& file) {
+  const uint32_t size = read<uint32_t>(file);
+  if (size > 1 << 20) throw std::runtime_error("its directory is damaged");
+  std::string text(size, ' ');
+  if (!file.read(text.data(), size))
+    throw std::runtime_error("the file ends within its directory");
+  return text;
+}
+
+void skip_metadata(std::ifstream& file) {
+  for (uint32_t count = read<uint32_t>(file); count > 0; --count) {
+    read_string(file);  // name
+    read_string(file);  // type
+    skip(file, read<uint32_t>(file));
+  }
+}
+
+}  // namespace
+
+void check_openvdb_size(std::ifstream& file) {
+  file.seekg(0, std::ios::end);
+  const int64_t size = file.tellg();
+  file.seekg(8);
+  const uint32_t version = read<uint32_t>(file);
+  skip(file, 8);  // version of the library
+  const bool has_offsets = read<char>(file) != 0;
+  if (version < oldest_version || version > newest_version || !has_offsets) return;
+  skip(file, 36);  // identifier
+  skip_metadata(file);
+  for (uint32_t count = read<uint32_t>(file); count > 0; --count) {
+    const std::string name = read_string(file);
+    read_string(file);  // type
+    read_string(file);  // the grid that this one is an instance of
+    skip(file, 16);     // where the grid and its voxels begin
+    const int64_t end = read<int64_t>(file);
+    if (end > size)
+      throw std::runtime_error(
+          fmt::format("it is truncated: grid \"{}\" ends at byte {} of {}",
+                      name.substr(0, name.find('\x1e')), end, size));
+    file.seekg(end);
+  }
+}
+
+}  // namespace tyndall

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "tyndall/geometry/ray.h"
+#include "tyndall/math/bounds.h"
+#include "tyndall/math/rgb.h"
+#include "tyndall/math/transform.h"
+#include "tyndall/media/brick_grid.h"
+#include "tyndall/media/grid_space.h"
+#include "tyndall/media/majorant_grid.h"
+#include "tyndall/media/medium_properties.h"
+#include "tyndall/media/phase_function.h"
+
+namespace tyndall {
+
+/// Colours at cell centres of a box, x fastest, then y, then z.
+struct RgbGrid {
+  Vec3i resolution;
+  std::vector<Rgb> values;  ///< resolution.x * y * z of them
+};
+
+/// A medium whose coefficients are colours that vary freely: pbrt's "rgbgrid" [PBRT4,
+/// Sec. 11.4].
+class RgbGridMedium {
+ public:
+  /// What the medium is made of, each optional: coefficients that are not given are one.
+  struct Grids {
+    std::optional<RgbGrid> sigma_a, sigma_s;
+    std::optional<RgbGrid> Le;
+  };
+
+  /// `scale` multiplies the coefficients, `Le_scale` the emission. Precondition: all grids
+  /// have the same resolution, and there is one of a coefficient.
+  RgbGridMedium(const Grids& grids, const Bounds3& bounds,
+                const Transform& world_from_medium, float scale, float Le_scale,
+                PhaseFunction phase);
+
+  /// DDA over the channels' majorants and means, empty cells skipped.
+  class Segments {
+   public:
+    Segments(const RgbGridMedium& medium, const Ray& ray, float t_max) : medium_(&medium) {
+      const auto clip = medium.space_.clip(ray, t_max, medium.box_);
+      if (!clip) return;
+      ray_ = clip->ray;
+      t_offset_ = clip->t_offset;
+      walk_ = CellWalk(medium.majorants_->r, ray_, 0, clip->length);
+    }
+
+    bool next(MediumSegment& segment) {
+      CellWalk::Step step;
+      while (walk_.next(step)) {
+        const MajorantCell& r = medium_->majorants_->r.cell(step.cell);
+        const MajorantCell& g = medium_->majorants_->g.cell(step.cell);
+        const MajorantCell& b = medium_->majorants_->b.cell(step.cell);
+        majorant_ = {r.majorant, g.majorant, b.majorant};
+        if (is_black(majorant_)) continue;
+        segment = {t_offset_ + step.t_min,
+                   t_offset_ + step.t_max,
+                   majorant_,
+                   {r.mean, g.mean, b.mean}};
+        return true;
+      }
+      return false;
+    }
+
+    /// The medium at a distance in the last segment; never above its majorant.
+    MediumProperties at(float t) const {
+      return medium_->properties(ray_.at(t - t_offset_), majorant_);
+    }
+    Rgb sigma_t(float t) const { return min(sigma_t_anywhere(t), majorant_); }
+    /// Extinction at any distance along the ray, in any order.
+    Rgb sigma_t_anywhere(float t) const { return medium_->sigma_t(ray_.at(t - t_offset_)); }
+
+   private:
+    const RgbGridMedium* medium_;
+    GridRay ray_;
+    float t_offset_ = 0;
+    Rgb majorant_;
+    CellWalk walk_;
+  };
+
+  MediumProperties at(Vec3 p) const { return properties(space_.point(p), Rgb(infinity)); }
+  Segments segments(const Ray& ray, float t_max) const { return {*this, ray, t_max}; }
+  bool is_emissive() const { return Le_ != nullptr; }
+  bool is_grey() const { return false; }
+  const PhaseFunction& phase() const { return phase_; }
+  Bounds3 world_bounds() const { return world_bounds_; }
+
+ private:
+  struct Majorants {
+    MajorantGrid r, g, b;
+  };
+  // One sparse grid per channel.
+  struct Field {
+    BrickGrid r, g, b;
+
+    Rgb operator()(Vec3 p_grid) const {
+      return {r.interpolate(p_grid), g.interpolate(p_grid), b.interpolate(p_grid)};
+    }
+  };
+
+  static std::shared_ptr<const Field> make_field(const RgbGrid& grid);
+  static Rgb min(Rgb a, Rgb b) {
+    return {std::min(a.r, b.r), std::min(a.g, b.g), std::min(a.b, b.b)};
+  }
+  Rgb sigma_t(Vec3 p_grid) const {
+    return box_.contains(p_grid) ? (*sigma_t_)(p_grid) : Rgb(0);
+  }
+  MediumProperties properties(Vec3 p_grid, Rgb majorant) const {
+    if (!box_.contains(p_grid)) return {};
+    const Rgb sum = min((*sigma_t_)(p_grid), majorant);
+    const Rgb sigma_s = min((*sigma_s_)(p_grid), sum);
+    return {sum - sigma_s, sigma_s, Le_ ? (*Le_)(p_grid) : Rgb(0)};
+  }
+
+  std::shared_ptr<const Field> sigma_t_, sigma_s_;
+  std::shared_ptr<const Field> Le_;  // null if dark
+  std::shared_ptr<const Majorants> majorants_;
+  GridSpace space_;
+  Bounds3 box_;  // in grid space
+  Bounds3 world_bounds_;
+  PhaseFunction phase_;
+};
+
+}  // namespace tyndall
