@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tyndall/geometry/disk.h"
 
+#include <algorithm>
 #include <cmath>
+
+#include "tyndall/geometry/azimuth.h"
 
 namespace tyndall {
 namespace {
@@ -9,14 +12,14 @@ namespace {
 double area_in_disk_space(const Disk& disk) {
   const auto outer = static_cast<double>(disk.radius);
   const auto inner = static_cast<double>(disk.inner_radius);
-  return std::max(
-      0.5 * static_cast<double>(disk.phi_max) * (outer - inner) * (outer + inner), 0.0);
+  return std::max(0.5 * azimuth_range(disk.phi_max) * (outer - inner) * (outer + inner),
+                  0.0);
 }
 
 }  // namespace
 
 SurfacePoint Disk::point(uint32_t, Vec2 uv) const {
-  const double phi = static_cast<double>(uv.x) * static_cast<double>(phi_max);
+  const double phi = static_cast<double>(uv.x) * azimuth_range(phi_max);
   const double r = std::lerp(static_cast<double>(radius), static_cast<double>(inner_radius),
                              static_cast<double>(uv.y));
   const Affine world(world_from_disk);

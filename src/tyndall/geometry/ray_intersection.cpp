@@ -4,23 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
+
+#include "tyndall/geometry/azimuth.h"
 
 namespace tyndall {
 namespace {
 
-constexpr double two_pi = 2 * std::numbers::pi;
 constexpr double no_limit = std::numeric_limits<double>::infinity();
-
-// The azimuth in [0, 2 pi).
-double azimuth(double x, double y) {
-  const double phi = std::atan2(y, x);
-  return phi < 0 ? phi + two_pi : phi;
-}
-
-double azimuth_limit(float phi_max) {
-  return phi_max >= 2 * pi ? no_limit : static_cast<double>(phi_max);
-}
 
 bool is_within(double t, double t_max) { return t > 0 && t < t_max; }
 
@@ -38,7 +28,7 @@ SphereIntersector::SphereIntersector(const Sphere& sphere)
       world_from_sphere_(sphere.world_from_sphere),
       sphere_from_world_(world_from_sphere_.inverse()),
       radius_(static_cast<double>(sphere.radius)),
-      phi_limit_(azimuth_limit(sphere.phi_max)) {
+      phi_max_(azimuth_range(sphere.phi_max)) {
   const float low = std::min(sphere.z_min, sphere.z_max);
   const float high = std::max(sphere.z_min, sphere.z_max);
   z_min_ = low <= -sphere.radius ? -no_limit : static_cast<double>(low) / radius_;
@@ -47,7 +37,7 @@ SphereIntersector::SphereIntersector(const Sphere& sphere)
 
 bool SphereIntersector::is_clipped_away(Vec3d n) const {
   return n.z < z_min_ || n.z > z_max_ ||
-         (phi_limit_ < no_limit && azimuth(n.x, n.y) > phi_limit_);
+         (phi_max_ < full_turn && azimuth(n.x, n.y) > phi_max_);
 }
 
 std::optional<PreciseHit> SphereIntersector::intersect(const PreciseRay& ray,
@@ -78,8 +68,7 @@ DiskIntersector::DiskIntersector(const Disk& disk)
       height_(static_cast<double>(disk.height)),
       radius_(static_cast<double>(disk.radius)),
       inner_radius_(static_cast<double>(disk.inner_radius)),
-      phi_max_(static_cast<double>(disk.phi_max)),
-      phi_limit_(azimuth_limit(disk.phi_max)) {}
+      phi_max_(azimuth_range(disk.phi_max)) {}
 
 std::optional<PreciseHit> DiskIntersector::intersect(const PreciseRay& ray,
                                                      double t_max) const {
@@ -90,7 +79,7 @@ std::optional<PreciseHit> DiskIntersector::intersect(const PreciseRay& ray,
   const double x = o.x + d.x * t, y = o.y + d.y * t;
   const double r = std::hypot(x, y), phi = azimuth(x, y);
   if (!(r <= radius_ && r >= inner_radius_ && radius_ > inner_radius_)) return std::nullopt;
-  if (phi > phi_limit_) return std::nullopt;
+  if (phi > phi_max_) return std::nullopt;
   return PreciseHit{.t = t,
                     .uv = {static_cast<float>(phi / phi_max_),
                            static_cast<float>((radius_ - r) / (radius_ - inner_radius_))},

@@ -50,7 +50,7 @@ class SphereIntersector {
   Affine world_from_sphere_, sphere_from_world_;
   double radius_;
   double z_min_, z_max_;  // on the unit sphere, beyond it where nothing is clipped
-  double phi_limit_;      // infinite where nothing is clipped
+  double phi_max_;
 };
 
 /// A disk with its maps and clips ready for rays.
@@ -63,7 +63,6 @@ class DiskIntersector {
   Affine world_from_disk_, disk_from_world_;
   double height_, radius_, inner_radius_;
   double phi_max_;
-  double phi_limit_;  // infinite where nothing is clipped
 };
 
 /// The hit with a patch, by the quadratic equation for the ruling (a line of constant u)

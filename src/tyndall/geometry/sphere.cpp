@@ -3,14 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "tyndall/geometry/azimuth.h"
 #include "tyndall/geometry/sample_by_area.h"
 
 namespace tyndall {
 namespace {
-
-constexpr double two_pi = 2 * std::numbers::pi;
 
 struct Range {
   double min, max;
@@ -27,8 +25,7 @@ Range z_range(const Sphere& s) {
 double area_in_sphere_space(const Sphere& s) {
   const Range z = z_range(s);
   return std::max(
-      static_cast<double>(s.phi_max) * static_cast<double>(s.radius) * (z.max - z.min),
-      0.0);
+      azimuth_range(s.phi_max) * static_cast<double>(s.radius) * (z.max - z.min), 0.0);
 }
 
 Vec3d direction(double cos_theta, double phi) {
@@ -85,13 +82,13 @@ Vec3d near_side_normal(const Cone& cone, Vec2 u) {
   const double root = std::sqrt(std::max((x_max - x) * (2 - x_max - x), 0.0));
   const double along = (s * s + (1 - x) * root) / s_max;
   const double across = (1 - x - root) * s / s_max;
-  const double phi = two_pi * static_cast<double>(u.y);
+  const double phi = full_turn * static_cast<double>(u.y);
   const auto [b, c] = perpendicular(cone.axis);
   return b * (across * std::cos(phi)) + c * (across * std::sin(phi)) - cone.axis * along;
 }
 
 float cone_pdf(const Cone& cone) {
-  const auto pdf = static_cast<float>(1 / (two_pi * cone.one_minus_cos));
+  const auto pdf = static_cast<float>(1 / (full_turn * cone.one_minus_cos));
   return std::isfinite(pdf) ? pdf : 0;
 }
 
@@ -100,7 +97,7 @@ float cone_pdf(const Cone& cone) {
 bool Sphere::is_full() const {
   const Range z = z_range(*this);
   const auto r = static_cast<double>(radius);
-  return z.min <= -r && z.max >= r && phi_max >= 2 * pi;
+  return z.min <= -r && z.max >= r && azimuth_range(phi_max) == full_turn;
 }
 
 SurfacePoint Sphere::point_at(Vec3d n) const {
@@ -116,11 +113,10 @@ SurfacePoint Sphere::point_at(Vec3d n) const {
 Vec2 Sphere::parameters(Vec3d n) const {
   const Range z = z_range(*this);
   const auto r = static_cast<double>(radius);
-  double phi = std::atan2(n.y, n.x);
-  if (phi < 0) phi += two_pi;
+  const double phi = azimuth(n.x, n.y);
   const double theta_min = std::acos(z.min / r), theta_max = std::acos(z.max / r);
   const double theta = std::acos(std::clamp(n.z, -1.0, 1.0));
-  return {static_cast<float>(phi / static_cast<double>(phi_max)),
+  return {static_cast<float>(phi / azimuth_range(phi_max)),
           static_cast<float>((theta - theta_min) / (theta_max - theta_min))};
 }
 
@@ -129,7 +125,7 @@ SurfacePoint Sphere::point(uint32_t, Vec2 uv) const {
   const auto r = static_cast<double>(radius);
   const double theta =
       std::lerp(std::acos(z.min / r), std::acos(z.max / r), static_cast<double>(uv.y));
-  const double phi = static_cast<double>(uv.x) * static_cast<double>(phi_max);
+  const double phi = static_cast<double>(uv.x) * azimuth_range(phi_max);
   const Vec3d n{std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
                 std::cos(theta)};
   SurfacePoint on = point_at(n);
@@ -172,7 +168,7 @@ float Sphere::area() const {
   for (int i = 0; i < rows; ++i)
     for (int j = 0; j < columns; ++j) {
       const double height = std::lerp(z.min, z.max, (i + 0.5) / rows);
-      const double phi = static_cast<double>(phi_max) * (j + 0.5) / columns;
+      const double phi = azimuth_range(phi_max) * (j + 0.5) / columns;
       sum += length(world.normal(direction(height / static_cast<double>(radius), phi)));
     }
   return static_cast<float>(unstretched * sum / (rows * columns));
@@ -183,7 +179,7 @@ ShapeSample Sphere::sample(Vec2 u) const {
   // Zones of equal height have equal areas [PBRT4, Sec. 6.2].
   const Range z = z_range(*this);
   const double height = std::lerp(z.min, z.max, static_cast<double>(u.x));
-  const double phi = static_cast<double>(u.y) * static_cast<double>(phi_max);
+  const double phi = static_cast<double>(u.y) * azimuth_range(phi_max);
   const SurfacePoint on = point_at(direction(height / static_cast<double>(radius), phi));
   return {.point = on, .pdf_area = pdf_area(on)};
 }
