@@ -82,6 +82,19 @@ class DocsTest(unittest.TestCase):
                 with self.subTest(document=document.name, target=target):
                     self.assertTrue((document.parent / target).exists())
 
+    def test_scene_format_names_everything(self):
+        page = (ROOT / "docs/scene-format.md").read_text()
+        source = ROOT / "src/tyndall/loader"
+        names = re.findall(r'Directive\{"(\w+)"', (source / "directives.cpp").read_text())
+        for file, table in (("light", "Light"), ("material", "Material"), ("medium", "Medium"),
+                            ("shape", "Shape")):
+            text = (source / f"make_{file}.cpp").read_text()
+            names += re.findall(rf'{table}Type\{{"(\w+)", make_\w+\}}', text)
+        self.assertGreater(len(names), 50)
+        for name in set(names) - {"hair", "none"}:
+            with self.subTest(name=name):
+                self.assertIn(f"`{name}`", page)
+
     def test_help_is_up_to_date(self):
         text = (ROOT / "docs/cli.md").read_text()
         self.assertTrue(HELP.search(text))
