@@ -8,6 +8,7 @@
 /// a line in main.cpp and in CMakeLists.txt.
 namespace tyndall::app {
 
+void add_bench_command(Program& program);
 void add_compare_command(Program& program);
 void add_convert_command(Program& program);
 void add_render_command(Program& program);

@@ -9,6 +9,7 @@ int main(int argc, char** argv) {
   add_render_command(program);
   add_compare_command(program);
   add_convert_command(program);
+  add_bench_command(program);
   add_report_command(program);
   return static_cast<int>(program.run(argc, argv));
 }

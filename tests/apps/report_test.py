@@ -1,0 +1,342 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""`tyndall report`: messages, the page without scripts, and the page in headless Chromium."""
+
+import html.parser
+import json
+import re
+import shutil
+import subprocess
+import unittest
+
+import numpy as np
+
+from program import ProgramTest, environment
+
+WIDTH, HEIGHT = 96, 54
+METHODS = {"volpath": 0.3, "jis": 0.1, "learned <new>": 0.02}
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
+
+
+def pfm(image):
+    height, width, _ = image.shape
+    return b"PF\n%d %d\n-1.0\n" % (width, height) + image[::-1].astype("<f4").tobytes()
+
+
+def errors(rel_mse):
+    return {"mse": rel_mse, "rel_mse": rel_mse, "rel_mse_trimmed": rel_mse, "smape": 0.1,
+            "psnr": 30, "ldr_flip": 0.1, "hdr_flip": None, "percentile_99_9": 1, "mean": 1,
+            "reference_mean": 1, "not_finite": 0, "reference_not_finite": 0}
+
+
+def run(name, seed, rel_mse):
+    checkpoints = [{"seconds": t, "samples_per_pixel": 4 * t, "mse": 1, "rel_mse": rel_mse * 8 / t,
+                    "rel_mse_trimmed": 1} for t in (1, 2, 4, 8)]
+    return {"seed": seed, "seconds": 8, "training_seconds": 0.5 * (name != "volpath"),
+            "cpu_seconds": 16, "samples_per_pixel": 32, "paths": 1000, "rejected_samples": 0,
+            "checkpoints": checkpoints, "errors": errors(rel_mse), "bias": None,
+            "image": re.sub(r"\W+", "_", name) + ".pfm", "counters": {"path.length.mean": 3.5},
+            "notes": ["learning took a while"] if name != "volpath" else [],
+            "command": f"tyndall render fog.pbrt --seed {seed}"}
+
+
+class ReportTest(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        random = np.random.default_rng(1)
+        y, x = np.mgrid[:HEIGHT, :WIDTH] / HEIGHT
+        self.images = {"reference": np.stack([0.1 + x, 0.2 + y, 0.05 + x * y], -1)}
+        for name, variance in METHODS.items():
+            noise = random.gamma(1 / variance, variance, (HEIGHT, WIDTH, 1))
+            self.images[name] = self.images["reference"] * noise
+        self.images["volpath"][3, 5] = np.nan
+        for name, image in self.images.items():
+            (self.folder / (re.sub(r"\W+", "_", name) + ".pfm")).write_bytes(pfm(image))
+        methods = [{"name": name, "integrator": name, "options": {},
+                    "runs": [run(name, seed, variance * (1 + 0.1 * seed)) for seed in range(3)]}
+                   for name, variance in METHODS.items()]
+        self.results = {
+            "format": "tyndall-results", "version": 1, "created": "2026-01-01T00:00:00Z",
+            "command": "tyndall bench fog.pbrt", "program": "tyndall 0", "commit": "abc",
+            "compiler": "gcc", "flags": "-O3", "threads": 2, "time_limit": 8, "epsilon": 0.01,
+            "machine": {"cpu": "CPU", "system": "Linux", "cores": 2, "memory_bytes": 1e9},
+            "scenes": [{"name": "fog & <lamp>", "path": "fog.pbrt", "hash": "0", "width": WIDTH,
+                        "height": HEIGHT, "reference": "reference.pfm",
+                        "reference_samples_per_pixel": 1000, "reference_rel_mse": 0.01,
+                        "methods": methods}]}
+        self.write_results()
+
+    def write_results(self):
+        self.write("results.json", json.dumps(self.results))
+
+    def report(self, *arguments):
+        return self.run_program("report", "results.json", *arguments)
+
+    def page(self):
+        result = self.report()
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return (self.folder / "report.html").read_text()
+
+
+class PageTest(ReportTest):
+    def test_tells_where_it_is(self):
+        result = self.report("-o", "page.html")
+        self.assertRegex(result.stdout, r"^wrote page\.html \(0\.\d MB\)\n$")
+        self.assertEqual(result.stderr, "")
+
+    def test_takes_a_folder(self):
+        result = self.run_program("report", ".", "-o", "page.html")
+        self.assertEqual(result.returncode, 0, result.stderr)
+
+    def test_needs_no_network(self):
+        page = self.page()
+        self.assertNotRegex(page, r"https?://")
+        self.assertNotRegex(page, r"<(script|link|img)[^>]+(src|href)=\"(?!data:)")
+
+    def test_is_well_formed(self):
+        open_tags, void = [], {"meta", "link", "img", "br", "path", "polyline", "polygon"}
+
+        class Parser(html.parser.HTMLParser):
+            def handle_starttag(self, tag, attributes):
+                if tag not in void:
+                    open_tags.append(tag)
+
+            def handle_endtag(parser, tag):
+                if tag not in void:
+                    self.assertEqual(open_tags.pop(), tag)
+
+        Parser().feed(self.page())
+        self.assertEqual(open_tags, [])
+
+    def test_reads_without_scripts(self):
+        text = re.sub(r"<script.*?</script>", "", self.page(), flags=re.DOTALL)
+        for expected in ("fog &amp; &lt;lamp&gt;", "<td>learned &lt;new&gt;</td>", "relMSE",
+                         "tyndall render fog.pbrt --seed 2", "tyndall bench fog.pbrt",
+                         "learned &lt;new&gt;: learning took a while", "path.length.mean",
+                         "15 (11.8 to 19.1)", "read the ratios as lower bounds", "<svg",
+                         "data:image/png;base64,"):
+            self.assertIn(expected, text)
+        self.assertNotIn("<lamp>", text)
+
+
+class MessageTest(ReportTest):
+    def check(self, code, message, *arguments):
+        result = self.run_program("report", *(arguments or ("results.json",)))
+        self.assertEqual((result.returncode, result.stderr), (code, f"error: {message}\n"))
+        self.assertFalse((self.folder / "report.html").exists())
+
+    def test_missing_results(self):
+        self.check(2, "x.json: cannot read: No such file or directory", "x.json")
+
+    def test_other_json(self):
+        self.write("x.json", "{}")
+        self.check(2, 'x.json: not a file of results: "format" is not "tyndall-results"', "x.json")
+
+    def test_no_runs(self):
+        self.results["scenes"][0]["methods"] = []
+        self.write_results()
+        self.check(2, 'results.json: scene "fog & <lamp>" has no finished runs')
+
+    def test_no_scenes(self):
+        self.results["scenes"] = []
+        self.write_results()
+        self.check(2, "results.json: there are no scenes")
+
+    def test_missing_image(self):
+        (self.folder / "jis.pfm").unlink()
+        self.check(2, "jis.pfm: cannot read: No such file or directory")
+
+    def test_image_of_another_size(self):
+        (self.folder / "jis.pfm").write_bytes(pfm(np.ones((4, 4, 3))))
+        self.check(2, "jis.pfm: the image has 4 x 4 pixels, the reference 96 x 54")
+
+    def test_unwritable_page(self):
+        result = self.report("-o", "none/a.html")
+        self.assertEqual((result.returncode, result.stderr),
+                         (5, "error: none/a.html: cannot write: No such file or directory\n"))
+
+
+# Runs in the page; what it returns comes back as JSON.
+SCENARIO = """
+<script>
+(async () => {
+  const tell = (name, value) => { document.body.dataset[name] = value; };
+  try {
+    const element = document.querySelector('.viewer');
+    while (!element.dataset.ready) await new Promise(done => setTimeout(done, 10));
+    const result = await scenario(viewers[0]);
+    tell('result', btoa(unescape(encodeURIComponent(JSON.stringify(result)))));
+  } catch (error) { tell('failure', String(error.stack || error)); }
+})();
+function key(text, extra = {}) {
+  document.body.dispatchEvent(new KeyboardEvent('keydown', {key: text, bubbles: true,
+    code: /[0-9]/.test(text) ? 'Digit' + text : '', ...extra}));
+}
+function slide(viewer, name, value) {
+  const input = viewer.element.querySelector(`input[name=${name}]`);
+  input.value = value;
+  input.dispatchEvent(new Event('input', {bubbles: true}));
+}
+function point(viewer, type, x, y) {
+  const box = viewer.canvas.getBoundingClientRect();
+  viewer.canvas.dispatchEvent(new PointerEvent(type, {pointerId: 1, bubbles: true,
+    clientX: box.left + x * box.width, clientY: box.top + y * box.height}));
+}
+// The color in the middle of image pixel (x, y).
+function color(viewer, x, y) {
+  viewer.drawNow();
+  const {view, canvas, context} = viewer;
+  const px = canvas.width / 2 + (x + 0.5 - view.x) * view.zoom;
+  const py = canvas.height / 2 + (y + 0.5 - view.y) * view.zoom;
+  return [...context.getImageData(Math.floor(px), Math.floor(py), 1, 1).data].slice(0, 3);
+}
+%s
+</script>
+</body>"""
+
+
+def srgb8(x):
+    x = np.clip(x, 0, 1)
+    return np.round(255 * np.where(x <= 0.0031308, 12.92 * x, 1.055 * x ** (1 / 2.4) - 0.055))
+
+
+@unittest.skipUnless(CHROMIUM, "Chromium is not installed")
+class BrowserTest(ReportTest):
+    def scenario(self, body, size="1280,800"):
+        """Runs `body`, the inside of a function of the viewer, in the page."""
+        script = "async function scenario(viewer) {\n%s\n}" % body
+        page = self.page().replace("</body>", SCENARIO % script)
+        (self.folder / "test.html").write_text(page)
+        result = subprocess.run(
+            [CHROMIUM, "--headless", "--no-sandbox", "--disable-gpu", "--enable-logging=stderr",
+             f"--user-data-dir={self.folder / 'profile'}", f"--window-size={size}",
+             "--virtual-time-budget=20000", "--dump-dom", f"file://{self.folder}/test.html"],
+            capture_output=True, text=True, timeout=200, env=environment())
+        self.assertNotIn("CONSOLE", result.stderr)
+        body = re.search(r"<body[^>]*>", result.stdout).group(0)
+        self.assertNotIn("data-failure", body)
+        encoded = re.search(r'data-result="([^"]*)"', body).group(1)
+        return json.loads(__import__("base64").b64decode(encoded))
+
+    def test_pictures_are_the_images(self):
+        radiances = self.scenario("""
+          return viewer.scene.pictures.map(p =>
+            [...Array(%d).keys()].map(i => p.radiance(i).map(v => isNaN(v) ? null : v)));
+        """ % (WIDTH * HEIGHT))
+        self.assertEqual(len(radiances), 4)
+        for (name, image), shown in zip(self.images.items(), radiances):
+            shown = np.array(shown, float).reshape(image.shape)
+            floor = np.median(self.images["reference"] @ [0.2126, 0.7152, 0.0722]) / 256
+            np.testing.assert_allclose(shown, image, rtol=0.011, atol=0.011 * floor, err_msg=name)
+
+    def test_keys_and_sliders_change_what_is_drawn(self):
+        shown = self.scenario("""
+          const at = () => color(viewer, 60, 30), out = {};
+          key('f'); key('r');
+          out.reference = at();
+          key('3');
+          out.learned = at();
+          key(' ');
+          out.back = at();
+          key(']'); key(']');
+          out.brighter = at();
+          slide(viewer, 'exposure', -2);
+          out.darker = at();
+          slide(viewer, 'exposure', 0);
+          key('e');
+          out.zeroError = at();
+          key('1');
+          out.error = at();
+          key('e'); key('r');
+          out.zeroDifference = at();
+          key('e'); key('e'); key('t');
+          out.filmic = at();
+          key('h');
+          out.help = document.getElementById('help').open;
+          return out;
+        """)
+        pixel = self.images["reference"][30, 60]
+
+        def check(name, values):
+            np.testing.assert_allclose(shown[name], srgb8(values), atol=3, err_msg=name)
+
+        check("reference", pixel)
+        check("learned", self.images["learned <new>"][30, 60])
+        check("back", pixel)
+        check("brighter", 2 * pixel)
+        check("darker", pixel / 4)
+        check("filmic", pixel * (2.51 * pixel + 0.03) / (pixel * (2.43 * pixel + 0.59) + 0.14))
+        self.assertEqual(shown["zeroError"], [0, 0, 4])
+        self.assertGreater(sum(shown["error"]), 100)
+        self.assertEqual(shown["zeroDifference"], [255, 255, 255])
+        self.assertTrue(shown["help"])
+
+    def test_not_a_number_is_magenta(self):
+        self.assertEqual(self.scenario("key('f'); key('1'); return color(viewer, 5, 3);"),
+                         [255, 0, 255])
+
+    def test_split_follows_slider_and_pointer(self):
+        shown = self.scenario("""
+          const at = x => color(viewer, x, 30), out = {};
+          viewer.canvas.setPointerCapture = () => {};  // knows no synthetic pointers
+          key('s'); key('1'); key('3', {shiftKey: true});
+          slide(viewer, 'split', 0.5);
+          out.left = at(40); out.right = at(56);
+          slide(viewer, 'split', 0.9);
+          out.afterSlider = at(56);
+          point(viewer, 'pointerdown', 0.9, 0.5); point(viewer, 'pointermove', 0.1, 0.5);
+          point(viewer, 'pointerup', 0.1, 0.5);
+          out.afterPointer = at(40);
+          return out;
+        """)
+        for name, image, x in (("left", "volpath", 40), ("right", "learned <new>", 56),
+                               ("afterSlider", "volpath", 56),
+                               ("afterPointer", "learned <new>", 40)):
+            np.testing.assert_allclose(shown[name], srgb8(self.images[image][30, x]), atol=3,
+                                       err_msg=name)
+
+    def test_zoom_and_pan_move_all_pictures(self):
+        shown = self.scenario("""
+          viewer.canvas.setPointerCapture = () => {};
+          key('g');
+          viewer.drawNow();
+          const panes = viewer.panes().length, before = {...viewer.view};
+          const box = viewer.canvas.getBoundingClientRect();
+          viewer.canvas.dispatchEvent(new WheelEvent('wheel', {deltaY: -200, cancelable: true,
+            clientX: box.left + 5, clientY: box.top + 5}));
+          const zoomed = {...viewer.view};
+          point(viewer, 'pointerdown', 0.2, 0.2); point(viewer, 'pointermove', 0.3, 0.2);
+          point(viewer, 'pointerup', 0.3, 0.2);
+          const panned = {...viewer.view};
+          document.querySelector('[data-inset]').click();
+          return {panes, before, zoomed, panned, inset: {...viewer.view},
+                  place: document.querySelector('[data-inset]').dataset.inset};
+        """)
+        self.assertEqual(shown["panes"], 4)
+        self.assertAlmostEqual(shown["zoomed"]["zoom"], 2 * shown["before"]["zoom"])
+        self.assertLess(shown["panned"]["x"], shown["zoomed"]["x"])
+        self.assertEqual(shown["panned"]["y"], shown["zoomed"]["y"])
+        x, y, size = map(int, shown["place"].split(","))
+        self.assertEqual((shown["inset"]["x"], shown["inset"]["y"]), (x + size / 2, y + size / 2))
+
+    def test_fits_the_width_of_a_phone(self):
+        shown = self.scenario("""
+          return {page: document.documentElement.scrollWidth, window: innerWidth,
+                  canvas: viewer.canvas.clientWidth, height: viewer.canvas.clientHeight};
+        """, size="500,800")  # Chromium's smallest window
+        self.assertLessEqual(shown["page"], shown["window"])
+        self.assertGreater(shown["canvas"], 0.9 * shown["window"])
+        self.assertGreater(shown["height"], 150)
+
+    def test_flipping_takes_no_visible_time(self):
+        milliseconds = self.scenario("""
+          key('f'); key('r'); viewer.drawNow(); key('1'); viewer.drawNow();
+          const start = performance.now();
+          for (let i = 0; i < 20; ++i) { key(' '); viewer.drawNow(); }
+          return (performance.now() - start) / 20;
+        """)
+        self.assertLess(milliseconds, 50)
+
+
+if __name__ == "__main__":
+    unittest.main()
