@@ -170,8 +170,11 @@ void declare_arguments(Command& command, BenchPlan& plan) {
               "size of the picture", {.value = "WxH"})
       .option("--maxdepth", &plan.render.max_depth, "scattering vertices of a path",
               {.value = "N"})
-      .option("--set", &plan.render.assignments, "option of all integrators",
-              {.value = "NAME=VALUE"})
+      .option("--set", ArgumentParser([&plan](const std::string& s) {
+                plan.render.assignments.push_back(parse_assignment(s));
+              }),
+              "option of all integrators; may be repeated",
+              {.value = "NAME=VALUE", .repeatable = true})
       .option("--threads", &plan.render.threads, "how many [all]", {.value = "N"})
       .option("--epsilon", &plan.epsilon, "in relMSE [0.01]", {.value = "X"})
       .flag("--no-flip", &plan.no_flip, "leave out FLIP, which is slow")

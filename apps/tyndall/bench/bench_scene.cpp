@@ -117,7 +117,8 @@ std::string render_command(const BenchScene& scene, const BenchPlan& plan,
   const auto add = [&](const std::string& name, const std::string& value) {
     words.insert(words.end(), {name, value});
   };
-  for (const std::string& assignment : plan.render.assignments) add("--set", assignment);
+  for (const auto& [name, value] : plan.render.assignments)
+    add("--set", name + "=" + value);
   for (const auto& [name, value] : method.options) add("--set", name + "=" + value);
   if (plan.render.size) {
     add("--size", fmt::format("{}x{}", plan.render.size->x, plan.render.size->y));
