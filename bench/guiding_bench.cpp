@@ -7,6 +7,7 @@
 #include "tyndall/guiding/light_square.h"
 #include "tyndall/guiding/online_em.h"
 #include "tyndall/guiding/optical_depth_map.h"
+#include "tyndall/guiding/record_cache.h"
 #include "tyndall/guiding/visibility_map.h"
 #include "tyndall/sampling/random.h"
 
@@ -152,6 +153,75 @@ void BM_OpticalDepthBatch(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations() * 64);
 }
 BENCHMARK(BM_OpticalDepthBatch);
+
+/// A cache of about range(0) records in the unit cube.
+RecordCache large_cache(int64_t records) {
+  RecordCacheSettings settings;
+  settings.split_samples = 2;
+  settings.relative_change = 1e-6;
+  RecordCache cache({LightCluster{}}, settings);
+  RandomStream random(1);
+  TrainingBuffer buffer(static_cast<size_t>(2 * records));
+  for (size_t i = 0; i < buffer.size(); ++i) {
+    TrainingSample& s = buffer[i];
+    s.key = i;
+    s.p = {random.next_1d(), random.next_1d(), random.next_1d()};
+    s.wi = s.light_direction = {0, 0, 1};
+    s.weight = s.pdf = s.light_distance = 1;
+  }
+  cache.update({&buffer, 1});
+  return cache;
+}
+
+void BM_FindRecord(benchmark::State& state) {
+  const RecordCache cache = large_cache(state.range(0));
+  const auto field = cache.field();
+  RandomStream random(2);
+  std::vector<Vec3> points(order_size);
+  for (Vec3& p : points) p = {random.next_1d(), random.next_1d(), random.next_1d()};
+  size_t i = 0;
+  for (auto _ : state) benchmark::DoNotOptimize(field->find(points[i++ % order_size]));
+  state.counters["records"] = static_cast<double>(field->records().size());
+}
+BENCHMARK(BM_FindRecord)->Arg(1000)->Arg(100'000);
+
+/// All that a direction costs: record, guide, square, sample, and its density.
+void BM_GuidedDirection(benchmark::State& state) {
+  const RecordCache cache = large_cache(state.range(0));
+  const auto field = cache.field();
+  RandomStream random(2);
+  std::vector<Vec3> points(order_size);
+  for (Vec3& p : points) p = {random.next_1d(), random.next_1d(), random.next_1d()};
+  size_t i = 0;
+  for (auto _ : state) {
+    const Vec3 p = points[i++ % order_size];
+    const GuidingRecord* record = field->find(p);
+    if (!record) continue;
+    const DirectionGuide* guide = field->guide(*record, 0);
+    if (!guide) continue;
+    const LightSquare square = guide->square(normalize(Vec3{0, 0, 9} - p));
+    benchmark::DoNotOptimize(guide->sample(square, {p.x, p.y}));
+  }
+}
+BENCHMARK(BM_GuidedDirection)->Arg(100)->Arg(100'000);
+
+/// Training: items are samples.
+void BM_Update(benchmark::State& state) {
+  RandomStream random(1);
+  TrainingBuffer buffer(100'000);
+  for (size_t i = 0; i < buffer.size(); ++i) {
+    TrainingSample& s = buffer[i];
+    s.key = i;
+    s.p = {random.next_1d(), random.next_1d(), random.next_1d()};
+    s.wi = spherical_direction(random.next_1d(), 6.28f * random.next_1d());
+    s.light_direction = {0, 0, 1};
+    s.weight = s.pdf = s.light_distance = 1;
+  }
+  RecordCache cache({LightCluster{}});
+  for (auto _ : state) cache.update({&buffer, 1});
+  state.SetItemsProcessed(state.iterations() * static_cast<int64_t>(buffer.size()));
+}
+BENCHMARK(BM_Update);
 
 }  // namespace
 }  // namespace tyndall

@@ -351,6 +351,10 @@ TEST(RecordCacheTest, SurvivesWritingAndReading) {
   EXPECT_EQ(in.remaining(), 0u);
   EXPECT_EQ(bytes_of(copy), bytes);
   EXPECT_EQ(copy.statistics().guides, cache.statistics().guides);
+  ByteReader again(bytes);
+  const std::optional<RecordCache> loaded = RecordCache::load(again);
+  ASSERT_TRUE(loaded);
+  EXPECT_EQ(bytes_of(*loaded), bytes);
   // Both learn on alike.
   const TrainingBuffer more = random_samples(70'000, 5000);
   learn(cache, more);
@@ -376,6 +380,8 @@ TEST(RecordCacheTest, DamagedFilesAreRefused) {
     RecordCache copy = empty_cache();
     ByteReader in(damaged);
     if (copy.read(in)) copy.field()->find({1, 0, 0});
+    ByteReader again(damaged);
+    if (const auto loaded = RecordCache::load(again)) loaded->field()->find({1, 0, 0});
   }
   RecordCache other({{SquareMeasure::joint_sampling, 1}});
   ByteReader in(bytes);

@@ -146,4 +146,23 @@ float LightView::extent() const {
   }
 }
 
+void LightView::write(ByteWriter& out) const {
+  out.write(static_cast<uint32_t>(kind_));
+  for (const Vec3 v : {frame_.x, frame_.y, frame_.z, origin_}) out.write(v);
+  out.write(scale_);
+}
+
+LightView LightView::read(ByteReader& in) {
+  const auto kind = in.read_as<uint32_t>();
+  LightView view = around({});
+  view.kind_ = static_cast<Kind>(kind);
+  for (Vec3* v : {&view.frame_.x, &view.frame_.y, &view.frame_.z, &view.origin_})
+    in.read(*v);
+  in.read(view.scale_);
+  const bool is_valid = kind <= static_cast<uint32_t>(Kind::parallel) && view.scale_ > 0;
+  if (!in.failed() && is_valid) return view;
+  in.fail();
+  return around({});
+}
+
 }  // namespace tyndall

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "tyndall/geometry/ray.h"
+#include "tyndall/guiding/byte_stream.h"
 #include "tyndall/math/bounds.h"
 #include "tyndall/math/frame.h"
 #include "tyndall/math/vec.h"
@@ -46,6 +47,10 @@ class LightView {
   /// About what one unit of uv spans: an angle [rad], or a length for parallel light.
   float extent() const;
   bool is_parallel() const { return kind_ == Kind::parallel; }
+
+  void write(ByteWriter& out) const;
+  /// A view of a point at the origin, and the reader failed, if what it reads is no view.
+  static LightView read(ByteReader& in);
 
  private:
   enum class Kind { sphere, cone, parallel };

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -80,6 +81,10 @@ class RecordCache {
   /// Takes over what write() wrote. False, and nothing changed, if it is something else or
   /// for another number of clusters.
   bool read(ByteReader& in);
+  /// A cache from what write() wrote, with the clusters that it was written with; empty if
+  /// it is something else.
+  static std::optional<RecordCache> load(ByteReader& in, RecordCacheSettings settings = {});
+  const std::vector<LightCluster>& clusters() const { return clusters_; }
 
  private:
   using Samples = std::vector<const TrainingSample*>;

@@ -37,13 +37,31 @@ RecordNode read_node(ByteReader& in, size_t index, size_t nodes, size_t records)
   return RecordNode::split(static_cast<int>(axis), position, target);
 }
 
+std::optional<std::vector<LightCluster>> read_clusters(ByteReader& in) {
+  const auto found_magic = in.read_as<uint32_t>(), found_version = in.read_as<uint32_t>();
+  const auto size = in.read_as<uint32_t>();
+  if (found_magic != magic || found_version != version || size > in.remaining() / 8)
+    return std::nullopt;
+  std::vector<LightCluster> clusters(size);
+  for (LightCluster& c : clusters) {
+    const auto measure = in.read_as<uint32_t>();
+    if (measure > static_cast<uint32_t>(SquareMeasure::solid_angle)) return std::nullopt;
+    c.measure = static_cast<SquareMeasure>(measure);
+    in.read(c.power);
+    if (!(c.power >= 0 && c.power <= 1.001f)) return std::nullopt;
+  }
+  return clusters;
+}
+
 }  // namespace
 
 void RecordCache::write(ByteWriter& out) const {
-  for (const uint32_t v :
-       {magic, version, static_cast<uint32_t>(clusters_.size()),
-        static_cast<uint32_t>(nodes_.size()), static_cast<uint32_t>(records_.size())})
+  for (const uint32_t v : {magic, version, static_cast<uint32_t>(clusters_.size())})
     out.write(v);
+  for (const LightCluster& c : clusters_)
+    out.write(static_cast<uint32_t>(c.measure)), out.write(c.power);
+  out.write(static_cast<uint32_t>(nodes_.size()));
+  out.write(static_cast<uint32_t>(records_.size()));
   out.write(samples_);
   out.write(rejected_);
   for (const RecordNode& node : nodes_) write_node(node, out);
@@ -58,11 +76,10 @@ void RecordCache::write(ByteWriter& out) const {
 }
 
 bool RecordCache::read(ByteReader& in) {
-  const auto found_magic = in.read_as<uint32_t>(), found_version = in.read_as<uint32_t>();
-  const auto clusters = in.read_as<uint32_t>();
+  const std::optional<std::vector<LightCluster>> clusters = read_clusters(in);
   const size_t nodes = in.read_as<uint32_t>(), records = in.read_as<uint32_t>();
-  if (found_magic != magic || found_version != version || clusters != clusters_.size() ||
-      records == 0 || nodes != 2 * records - 1 || records > in.remaining() / least_record)
+  if (!clusters || clusters->size() != clusters_.size() || records == 0 ||
+      nodes != 2 * records - 1 || records > in.remaining() / least_record)
     return false;
 
   RecordCache loaded(clusters_, settings_);
@@ -91,6 +108,18 @@ bool RecordCache::read(ByteReader& in) {
   loaded.freeze();
   *this = std::move(loaded);
   return true;
+}
+
+std::optional<RecordCache> RecordCache::load(ByteReader& in, RecordCacheSettings settings) {
+  ByteReader ahead = in;
+  std::optional<std::vector<LightCluster>> clusters = read_clusters(ahead);
+  if (!clusters) return std::nullopt;
+  float power = 0;
+  for (const LightCluster& c : *clusters) power += c.power;
+  if (!clusters->empty() && !(power > 0)) return std::nullopt;
+  RecordCache cache(std::move(*clusters), std::move(settings));
+  if (!cache.read(in)) return std::nullopt;
+  return cache;
 }
 
 }  // namespace tyndall

@@ -84,7 +84,8 @@ void GuideTraining::start_mixture(std::span<const WeightedPoint> points, uint64_
                [](const WeightedPoint& s) { return s.weight > 0; });
   MixtureStatistics weights;
   weights.add(guide.mixture, lit);
-  if (weights.effective_count() < settings.least_samples) {
+  if (lit.size() < settings.least_samples ||
+      weights.effective_count() < settings.least_effective) {
     pending.assign(lit.end() - std::min(std::ssize(lit), std::ptrdiff_t{max_pending}),
                    lit.end());
     return;

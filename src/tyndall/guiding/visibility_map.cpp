@@ -13,6 +13,8 @@ namespace tyndall {
 
 namespace {
 
+constexpr uint32_t max_resolution = 1 << 13;
+
 /// Of every quarter of the sorted distances the middle one. Of two middle ones `upper`
 /// chooses: always the same would predict too much or too little on average.
 std::array<float, 4> quartiles(std::span<float> distances, bool upper) {
@@ -49,7 +51,8 @@ VisibilityMap::VisibilityMap(const LightView& view, const VisibilityMapSettings&
       rays_per_texel_(settings.rays_per_texel),
       floor_(settings.floor),
       seed_(settings.seed) {
-  assert(std::has_single_bit(static_cast<unsigned>(resolution_)) && resolution_ <= 1 << 13);
+  assert(std::has_single_bit(static_cast<unsigned>(resolution_)) &&
+         resolution_ <= static_cast<int>(max_resolution));
   assert(rays_per_texel_ > 0 && rays_per_texel_ % 4 == 0);
   int32_t size = 0;
   for (int32_t side = resolution_; side > 0; side /= 2) {
@@ -142,10 +145,29 @@ int VisibilityMap::level_of(float footprint) const {
 }
 
 void VisibilityMap::write(ByteWriter& out) const {
+  view_.write(out);
   out.write(static_cast<uint32_t>(resolution_));
+  out.write(floor_);
   const size_t finest = static_cast<size_t>(resolution_) * static_cast<size_t>(resolution_);
   for (size_t i = 0; i < finest; ++i)
     for (const float d : texels_[i].distance) out.write(d);
+}
+
+std::optional<VisibilityMap> VisibilityMap::read(ByteReader& in) {
+  const LightView view = LightView::read(in);
+  VisibilityMapSettings settings;
+  const auto resolution = in.read_as<uint32_t>();
+  in.read(settings.floor);
+  const size_t texels = size_t{resolution} * resolution;
+  if (in.failed() || !std::has_single_bit(resolution) || resolution > max_resolution ||
+      in.remaining() < texels * sizeof(Texel))
+    return std::nullopt;
+  settings.resolution = static_cast<int>(resolution);
+  VisibilityMap map(view, settings);
+  for (size_t i = 0; i < texels; ++i)
+    for (float& d : map.texels_[i].distance) in.read(d);
+  map.finish();
+  return map;
 }
 
 }  // namespace tyndall

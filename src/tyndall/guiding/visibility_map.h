@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -62,8 +63,11 @@ class VisibilityMap {
   const LightView& view() const { return view_; }
   size_t memory() const { return texels_.size() * sizeof(Texel); }  ///< [bytes]
 
-  /// Appends the finest level: rows(), then four distances a texel.
+  /// Appends the view, the resolution, the floor, and four distances a texel of the finest
+  /// level.
   void write(ByteWriter& out) const;
+  /// Empty if what it reads is no map.
+  static std::optional<VisibilityMap> read(ByteReader& in);
 
  private:
   struct alignas(16) Texel {
