@@ -49,9 +49,7 @@ struct Geometry {
   const Shape* shape;
   const TriangleMesh* mesh;  // null if another shape
   std::variant<std::monostate, SphereIntersector, DiskIntersector> quadric;
-  // Embree's float arithmetic tells the right side of a triangle's plane if the origin's
-  // distance to it times twice the triangle's area is above this.
-  float safe_volume = 0;
+  float longest_edge = 0;  // of the mesh
 };
 
 struct InstanceTable {
@@ -63,6 +61,7 @@ struct InstanceTable {
 struct RayContext {
   RTCIntersectContext embree;
   const Ray* world_ray;
+  float t_max;
   const InstanceTable* instances;
 
   const InstanceMaps* instance(uint32_t id) const {
@@ -76,15 +75,14 @@ struct RayContext {
             .d = instance->group_from_world.vector(d)};
   }
   // The ray where the callback is: in an instance or in the world.
-  static PreciseRay current_ray(const RTCIntersectContext* embree) {
-    const auto* self = reinterpret_cast<const RayContext*>(embree);
-    return self->ray_in(self->instance(embree->instID[0]));
+  PreciseRay current_ray() const { return ray_in(instance(embree.instID[0])); }
+  static const RayContext& of(const RTCIntersectContext* embree) {
+    return *reinterpret_cast<const RayContext*>(embree);
   }
 };
 static_assert(std::is_standard_layout_v<RTCIntersectContext>);
 
-// Three roundings of numbers as large as the longest edge, with a margin of four.
-float safe_volume(const TriangleMesh& mesh) {
+float longest_edge(const TriangleMesh& mesh) {
   double longest2 = 0;
   for (uint32_t i = 0; i < mesh.triangles().size(); ++i) {
     const PreciseTriangle triangle = mesh.triangle(i);
@@ -92,7 +90,13 @@ float safe_volume(const TriangleMesh& mesh) {
          {triangle.edge1, triangle.edge2, triangle.edge2 - triangle.edge1})
       if (dot(edge, edge) > longest2) longest2 = dot(edge, edge);
   }
-  return static_cast<float>(32 * 0x1p-23 * longest2 * std::sqrt(longest2));
+  return static_cast<float>(std::sqrt(longest2));
+}
+
+// Whether a triangle is in front of the ray and not behind its end.
+bool is_between_ends(const PreciseTriangle& triangle, const PreciseRay& ray, float t_max) {
+  return starts_in_front(triangle, ray) &&
+         plane_distance(triangle, ray) < static_cast<double>(t_max);
 }
 
 std::optional<PreciseHit> intersect_curved(const Geometry& geometry, uint32_t primitive,
@@ -105,20 +109,24 @@ std::optional<PreciseHit> intersect_curved(const Geometry& geometry, uint32_t pr
                          t_max);
 }
 
-// Drops hits of a triangle by a ray that starts on it or behind it, which float cannot
-// tell.
-void drop_hit_behind(const RTCFilterFunctionNArguments* args) {
+// Drops hits of the triangles that a ray starts from or ends on, which float cannot tell.
+void drop_hit_of_ends(const RTCFilterFunctionNArguments* args) {
   assert(args->N == 1);
   const auto& geometry = *static_cast<const Geometry*>(args->geometryUserPtr);
   const auto& ray = *reinterpret_cast<const RTCRay*>(args->ray);
   const auto& hit = *reinterpret_cast<const RTCHit*>(args->hit);
-  const float volume =
-      ray.tfar * (hit.Ng_x * ray.dir_x + hit.Ng_y * ray.dir_y + hit.Ng_z * ray.dir_z);
-  if (std::abs(volume) > geometry.safe_volume &&
-      args->context->instID[0] == RTC_INVALID_GEOMETRY_ID)
-    return;
-  const PreciseRay current = RayContext::current_ray(args->context);
-  if (!starts_in_front(geometry.mesh->triangle(hit.primID), current)) args->valid[0] = 0;
+  const float t_max = RayContext::of(args->context).t_max;
+  // Distances to the triangle's plane times twice its area, and how wrong Embree may be
+  // about them: a few roundings of products of lengths up to these.
+  const float slope =
+      std::abs(hit.Ng_x * ray.dir_x + hit.Ng_y * ray.dir_y + hit.Ng_z * ray.dir_z);
+  const float nearest_end = std::min(ray.tfar, t_max - ray.tfar) * slope;
+  const float error =
+      32 * 0x1p-23f * sqr(geometry.longest_edge) * (geometry.longest_edge + ray.tfar);
+  if (nearest_end > error && args->context->instID[0] == RTC_INVALID_GEOMETRY_ID) return;
+  const PreciseRay current = RayContext::of(args->context).current_ray();
+  if (!is_between_ends(geometry.mesh->triangle(hit.primID), current, t_max))
+    args->valid[0] = 0;
 }
 
 Bounds3 primitive_bounds(const Geometry& geometry, uint32_t primitive) {
@@ -144,7 +152,7 @@ void intersect_user_geometry(const RTCIntersectFunctionNArguments* args) {
   if (!args->valid[0]) return;
   const auto& geometry = *static_cast<const Geometry*>(args->geometryUserPtr);
   auto& [ray, hit] = *reinterpret_cast<RTCRayHit*>(args->rayhit);
-  const PreciseRay current = RayContext::current_ray(args->context);
+  const PreciseRay current = RayContext::of(args->context).current_ray();
   const std::optional<PreciseHit> found =
       intersect_curved(geometry, args->primID, current, static_cast<double>(ray.tfar));
   if (!found) return;
@@ -161,7 +169,7 @@ void occlude_user_geometry(const RTCOccludedFunctionNArguments* args) {
   if (!args->valid[0]) return;
   const auto& geometry = *static_cast<const Geometry*>(args->geometryUserPtr);
   auto& ray = *reinterpret_cast<RTCRay*>(args->ray);
-  const PreciseRay current = RayContext::current_ray(args->context);
+  const PreciseRay current = RayContext::of(args->context).current_ray();
   if (intersect_curved(geometry, args->primID, current, static_cast<double>(ray.tfar)))
     ray.tfar = -infinity;
 }
@@ -179,8 +187,8 @@ Handle<RTCGeometry> new_triangles(RTCDevice device, const TriangleMesh& mesh,
                              mesh.triangles().size());
   // In the world intersect() checks the closest hit itself, which costs less than a
   // callback for each; an occlusion test does not tell what it hit.
-  rtcSetGeometryOccludedFilterFunction(geometry.get(), drop_hit_behind);
-  if (is_instanced) rtcSetGeometryIntersectFilterFunction(geometry.get(), drop_hit_behind);
+  rtcSetGeometryOccludedFilterFunction(geometry.get(), drop_hit_of_ends);
+  if (is_instanced) rtcSetGeometryIntersectFilterFunction(geometry.get(), drop_hit_of_ends);
   return geometry;
 }
 
@@ -202,7 +210,7 @@ size_t primitive_count(const Shape& shape) {
 Geometry make_geometry(const Shape& shape) {
   Geometry geometry{
       .shape = &shape, .mesh = std::get_if<TriangleMesh>(&shape), .quadric = {}};
-  if (geometry.mesh) geometry.safe_volume = safe_volume(*geometry.mesh);
+  if (geometry.mesh) geometry.longest_edge = longest_edge(*geometry.mesh);
   if (const auto* sphere = std::get_if<Sphere>(&shape))
     geometry.quadric.emplace<SphereIntersector>(*sphere);
   if (const auto* disk = std::get_if<Disk>(&shape))
@@ -282,13 +290,13 @@ class Intersector::Impl {
 
   std::optional<SceneHit> intersect(const Ray& ray, float t_max, RayMask mask) const {
     if (!can_hit(ray, t_max)) return std::nullopt;
-    RayContext context = new_context(ray);
+    RayContext context = new_context(ray, t_max);
     RTCRayHit query{.ray = to_embree(ray, t_max, mask), .hit = no_hit()};
     for (;;) {
       rtcIntersect1(scenes_[0].get(), &context.embree, &query);
       if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-      if (is_proper(context, query.hit)) return reconstruct(context, query, t_max);
-      // It was the triangle that the ray starts from: go on behind it.
+      if (is_proper(context, query.hit)) return reconstruct(context, query);
+      // It was a triangle at an end of the ray: go on behind it.
       query.ray.tnear = std::nextafter(query.ray.tfar, infinity);
       query.ray.tfar = t_max;
       query.hit = no_hit();
@@ -298,7 +306,7 @@ class Intersector::Impl {
 
   bool is_occluded(const Ray& ray, float t_max, RayMask mask) const {
     if (!can_hit(ray, t_max)) return false;
-    RayContext context = new_context(ray);
+    RayContext context = new_context(ray, t_max);
     RTCRay query = to_embree(ray, t_max, mask);
     rtcOccluded1(scenes_[0].get(), &context.embree, &query);
     return query.tfar < 0;
@@ -356,10 +364,11 @@ class Intersector::Impl {
     }
   }
 
-  RayContext new_context(const Ray& ray) const {
+  RayContext new_context(const Ray& ray, float t_max) const {
     RayContext context;
     rtcInitIntersectContext(&context.embree);
     context.world_ray = &ray;
+    context.t_max = t_max;
     context.instances = &instances_;
     return context;
   }
@@ -368,16 +377,15 @@ class Intersector::Impl {
     return geometries_[instance ? instance->group : 0][hit.geomID];
   }
 
-  // Whether the hit is not of the triangle that the ray starts from.
+  // Whether the hit is not of a triangle that the ray starts from or ends on.
   bool is_proper(const RayContext& context, const RTCHit& hit) const {
     const InstanceMaps* instance = context.instance(hit.instID[0]);
     const Geometry& geometry = geometry_of(instance, hit);
-    return !geometry.mesh ||
-           starts_in_front(geometry.mesh->triangle(hit.primID), context.ray_in(instance));
+    return !geometry.mesh || is_between_ends(geometry.mesh->triangle(hit.primID),
+                                             context.ray_in(instance), context.t_max);
   }
 
-  SceneHit reconstruct(const RayContext& context, const RTCRayHit& query,
-                       float t_max) const {
+  SceneHit reconstruct(const RayContext& context, const RTCRayHit& query) const {
     const RTCHit& hit = query.hit;
     const InstanceMaps* instance = context.instance(hit.instID[0]);
     const Geometry& geometry = geometry_of(instance, hit);
@@ -385,7 +393,7 @@ class Intersector::Impl {
     const PreciseTriangle triangle = geometry.mesh->triangle(hit.primID);
     const Vec2 barycentric = clamp_to_triangle({hit.u, hit.v});
     const double t = plane_distance(triangle, context.ray_in(instance));
-    SceneHit result{.t = std::min(static_cast<float>(t), t_max),
+    SceneHit result{.t = static_cast<float>(t),
                     .group = 0,
                     .shape = hit.geomID,
                     .point = geometry.mesh->point(hit.primID, barycentric, triangle)};
