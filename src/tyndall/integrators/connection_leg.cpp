@@ -10,6 +10,10 @@ namespace {
 // Connections look no further than the proxy lets this share of the light through.
 constexpr float end_transmittance = 1e-5f;
 
+// Predicted visibility is never below this: the price of being wrong.
+constexpr float visibility_floor = 0.02f;
+constexpr size_t visibility_bytes = size_t{64} << 20;
+
 // The share of the samples that does not trust the bins.
 constexpr float floor_share = 0.1f;
 
@@ -17,6 +21,9 @@ constexpr float floor_share = 0.1f;
 
 ConnectionContext::ConnectionContext(const Scene& scene, const ConnectionSettings& settings)
     : scene_(&scene), settings_(settings), light_choice_(scene.lights(), scene.bounds()) {
+  if (settings.visibility)
+    visibility_ = std::make_unique<const LightVisibility>(scene, visibility_bytes, visibility_floor);
+  if (settings.lit_surfaces) lit_.emplace(scene);
   std::map<float, std::shared_ptr<const ScatteringTables>> by_g;
   for (const Medium& medium : scene.description().media) {
     const float g = medium.phase().mean_cosine();
@@ -41,29 +48,34 @@ ConnectionLeg::ConnectionLeg(const ConnectionContext& context, const Pivots& piv
     : context_(&context), pivots_(&pivots), ray_(leg.ray()), proxy_(leg) {
   if (proxy_.is_empty()) return;
   t_max_ = proxy_.distance_to(end_transmittance);
-  lights_ = context.light_choice().along(ray_, proxy_.t_min(), t_max_);
 }
 
-std::optional<SelectedLight> ConnectionLeg::select_light(float u) const {
-  return lights_.select(context_->scene().lights(), u);
+const LightProbabilities& ConnectionLeg::lights() {
+  if (!lights_) lights_ = context_->light_choice().along(ray_, proxy_.t_min(), t_max_);
+  return *lights_;
 }
+
+std::optional<SelectedLight> ConnectionLeg::select_light(float u) {
+  return lights().select(context_->scene().lights(), u);
+}
+
+float ConnectionLeg::light_probability(size_t light) { return lights().probability(light); }
 
 template <int K>
 DistanceWeights<K> ConnectionLeg::weights(const DistanceTaps<K>& taps, bool with_phase) const {
   auto weights = DistanceWeights<K>::ones();
-  LegProxy::Cursor cursor(proxy_);
-  for (size_t i = 0; i < K; ++i) {
-    cursor.move_to(taps.t[i]);
-    // On the way from the tap to the light, the medium is taken to be as it is at the tap.
-    const float to_light = cursor.medium() && cursor.medium()->is_homogeneous()
-                               ? fast_exp(-cursor.sigma_t() * taps.distance[i])
-                               : 1;
-    weights.values[i] = cursor.sigma_t() * cursor.transmittance() * to_light;
+  const Medium* medium = proxy_.first_medium();
+  if (proxy_.is_uniform() && medium->is_homogeneous()) {
+    weights.multiply_transmittance(taps, proxy_.first_sigma_t());
+  } else {
+    LegProxy::Cursor cursor(proxy_);
+    for (size_t i = 0; i < K; ++i) {
+      cursor.move_to(taps.t[i]);
+      // What lies between the tap and the light is not known here.
+      weights.values[i] = cursor.sigma_t() * cursor.transmittance();
+    }
   }
-  if (with_phase) {
-    const Medium* medium = proxy_.first_medium();
-    weights.multiply_phase(taps, medium->phase().mean_cosine());
-  }
+  if (with_phase) weights.multiply_phase(taps, medium->phase().mean_cosine());
   return weights;
 }
 
@@ -79,7 +91,13 @@ ConnectionLeg::PerLight& ConnectionLeg::aim_at(size_t light) {
   const float nearest = segment.s_near() < 0 ? segment.h() : segment.r_near();
   const float farthest = segment.r(segment.s(segment.length()));
   if (!(farthest > context_->settings().min_distance_ratio * nearest)) return *cache_;
-  cache_->single.emplace(base, weights(base.taps<32>(), true), floor_share);
+  const DistanceTaps<32> taps = base.taps<32>();
+  DistanceWeights<32> factors = weights(taps, true);
+  if (const LightVisibility* visibility = context_->visibility()) {
+    const float angle = base.integral() * segment.h();
+    visibility->multiply(light, ray_, taps.t, angle / 32, factors.values);
+  }
+  cache_->single.emplace(base, factors, floor_share);
   return *cache_;
 }
 
@@ -98,9 +116,27 @@ const ConnectionLeg::Double* ConnectionLeg::dual(size_t light) {
     const DoubleScatteringDistance base(context_->tables(*proxy_.first_medium()),
                                         cache.single->base().segment());
     if (base.integral() > 0)
-      cache.dual.emplace(base, weights(base.taps<16>(), false), floor_share);
+      cache.dual.emplace(base, weights(base.taps<8>(), false), floor_share);
   }
   return cache.dual ? &*cache.dual : nullptr;
+}
+
+std::optional<ConnectionLeg::Lit> ConnectionLeg::lit(Vec3 p, Vec3 ng, Vec3 to_light) const {
+  if (is_empty()) return std::nullopt;
+  const EquiangularSampling base(ray_, p, proxy_.t_min(), t_max_);
+  if (!(base.integral() > 0)) return std::nullopt;
+  const DistanceTaps<16> taps = base.taps<16>();
+  DistanceWeights<16> factors = weights(taps, true);
+  const Vec3 n = dot(ng, to_light) > 0 ? ng : -ng;
+  const float c0 = dot(ray_.o - p, n), c1 = dot(ray_.d, n);
+  for (size_t i = 0; i < 16; ++i)
+    factors.values[i] *= std::max((c0 + c1 * taps.t[i]) / taps.distance[i], 0.0f);
+  return Lit(base, factors, floor_share);
+}
+
+const ConnectionLeg::Double* ConnectionLeg::dual_from(const LegStart& x, size_t light) {
+  const Double* technique = x.is_in_medium ? dual(light) : nullptr;
+  return technique && technique->pdf_t(x.t) > 0 ? technique : nullptr;
 }
 
 }  // namespace tyndall

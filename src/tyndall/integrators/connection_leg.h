@@ -6,6 +6,8 @@
 #include <optional>
 
 #include "tyndall/integrators/leg_proxy.h"
+#include "tyndall/integrators/light_visibility.h"
+#include "tyndall/integrators/lit_surface.h"
 #include "tyndall/scene/light_choice.h"
 #include "tyndall/techniques/binned_distance.h"
 #include "tyndall/techniques/double_scattering_distance.h"
@@ -21,6 +23,8 @@ struct ConnectionSettings {
   /// Legs along which the distance to the light varies by less than this factor are left to
   /// next event estimation: there is nothing to gain.
   float min_distance_ratio = 1.2f;
+  bool visibility = false;  ///< predict what the lights see, for distances
+  bool lit_surfaces = false;  ///< connect to surfaces that lights shine on
 };
 
 /// What all connections of a render share. Immutable.
@@ -33,11 +37,17 @@ class ConnectionContext {
   const LightChoice& light_choice() const { return light_choice_; }
   /// The tables of a medium's phase function.
   const ScatteringTables& tables(const Medium& medium) const;
+  /// Null if visibility is not predicted.
+  const LightVisibility* visibility() const { return visibility_.get(); }
+  /// Null if lit surfaces are not connected to.
+  const LitSurfaceSampling* lit_surfaces() const { return lit_ ? &*lit_ : nullptr; }
 
  private:
   const Scene* scene_;
   ConnectionSettings settings_;
   LightChoice light_choice_;
+  std::unique_ptr<const LightVisibility> visibility_;
+  std::optional<LitSurfaceSampling> lit_;
   std::map<const Medium*, std::shared_ptr<const ScatteringTables>> tables_;
 };
 
@@ -55,6 +65,17 @@ class Pivots {
   uint64_t key_;
 };
 
+/// Where a leg begins, as far as the densities of other techniques need to know.
+struct LegStart {
+  Vec3 p;
+  float t = 0;                 ///< of p along the leg before
+  float pdf_direction = 1;     ///< with which the walk turns into the leg [1/sr]
+  bool is_specular = true;     ///< the camera, or a Dirac delta: the direction has no density
+  bool is_in_medium = false;
+  Vec3 ng;                     ///< of a surface
+  bool can_be_lit = false;     ///< a surface that LitSurfaceSampling finds
+};
+
 /// The densities of the scattering vertices that connections put on one leg.
 class ConnectionLeg {
  public:
@@ -68,8 +89,8 @@ class ConnectionLeg {
   bool is_empty() const { return !context_ || proxy_.is_empty(); }
 
   /// Draws a light for connections; those at infinity are never drawn.
-  std::optional<SelectedLight> select_light(float u) const;
-  float light_probability(size_t light) const { return lights_.probability(light); }
+  std::optional<SelectedLight> select_light(float u);
+  float light_probability(size_t light);
   /// The point that the techniques aim at; empty for lights at infinity.
   std::optional<Vec3> pivot(size_t light) const { return (*pivots_)(light); }
 
@@ -77,8 +98,14 @@ class ConnectionLeg {
   using Single = BinnedDistance<EquiangularSampling, 32>;
   const Single* single(size_t light);
   /// The vertex before the last.
-  using Double = BinnedDistance<DoubleScatteringDistance, 16>;
+  using Double = BinnedDistance<DoubleScatteringDistance, 8>;
   const Double* dual(size_t light);
+  /// The vertex from which a lit point of a surface is seen: equi-angular about it, times
+  /// transmittance, phase function and the cosine at the surface. Empty where nothing scatters.
+  using Lit = BinnedDistance<EquiangularSampling, 16>;
+  std::optional<Lit> lit(Vec3 p, Vec3 ng, Vec3 to_light) const;
+  /// As dual(), but null also if no dual connection can have put its first vertex at `x`.
+  const Double* dual_from(const LegStart& x, size_t light);
 
  private:
   struct PerLight {
@@ -88,6 +115,7 @@ class ConnectionLeg {
     bool has_dual = false;
   };
   PerLight& aim_at(size_t light);
+  const LightProbabilities& lights();
   template <int K>
   DistanceWeights<K> weights(const DistanceTaps<K>& taps, bool with_phase) const;
 
@@ -96,7 +124,7 @@ class ConnectionLeg {
   Ray ray_{};
   LegProxy proxy_;
   float t_max_ = 0;  // beyond, the proxy lets no light through
-  LightProbabilities lights_;
+  std::optional<LightProbabilities> lights_;  // once somebody asks
   std::optional<PerLight> cache_;  // of the light last asked for
 };
 

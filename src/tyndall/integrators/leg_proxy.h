@@ -21,6 +21,9 @@ class LegProxy {
   float t_min() const { return t_min_; }
   float t_max() const { return t_max_; }
   bool is_empty() const { return !(t_min_ < t_max_); }
+  /// The extinction is the same all along, from t_min() to t_max().
+  bool is_uniform() const { return pieces_.size() == 1; }
+  float first_sigma_t() const { return pieces_.front().sigma_t; }
   /// The medium at t_min(). Precondition: not empty.
   const Medium* first_medium() const { return pieces_.front().medium; }
 

@@ -9,7 +9,7 @@
 
 namespace tyndall {
 
-std::vector<std::string> integrator_names() { return {"volpath", "equiangular", "jis"}; }
+std::vector<std::string> integrator_names() { return {"volpath", "equiangular", "jis", "learned"}; }
 
 std::unique_ptr<Integrator> make_integrator(const Scene& scene, const RenderSettings& settings) {
   if (!settings.options.empty())
@@ -21,6 +21,8 @@ std::unique_ptr<Integrator> make_integrator(const Scene& scene, const RenderSett
   };
   if (settings.integrator == "volpath") return tracer({});
   if (settings.integrator == "equiangular") return tracer({.single = true});
+  if (settings.integrator == "learned")
+    return tracer({.single = true, .dual = true, .min_distance_ratio = 1, .visibility = true, .lit_surfaces = true});
   if (settings.integrator == "jis") return tracer({.single = true, .dual = true});
   throw std::invalid_argument(fmt::format("unknown integrator \"{}\"; there are: {}",
                                           settings.integrator,

@@ -114,14 +114,14 @@ void Path::add_surface_emission(const SurfaceHit& hit) {
   const Rgb Le = area->Le(hit.point, -ray_.d);
   if (is_black(Le)) return;
   const float light_pdf = start_.is_specular ? 0 : hit.light->pdf(start_.p, hit.point);
-  add(beta_ * Le * hit_weight(hit.light_index, light_pdf));
+  add(beta_ * Le * hit_weight(hit.light_index, light_pdf, hit.t));
 }
 
 void Path::add_environment() {
   if (!rules_.orders.contains(order_)) return;
   for (const size_t i : scene_.environments()) {
     const Light& light = scene_.lights()[i];
-    add(beta_ * light.environment(ray_.d) * hit_weight(i, light.pdf(ray_.d)));
+    add(beta_ * light.environment(ray_.d) * hit_weight(i, light.pdf(ray_.d), infinity));
   }
 }
 
@@ -131,11 +131,7 @@ bool Path::scatter() {
   beta_ *= s->value / s->pdf;
   eta_scale_ *= sqr(s->eta);
   start_before_ = start_;
-  start_ = {.p = vertex_->p(),
-            .t = t_vertex_,
-            .pdf_direction = s->pdf,
-            .is_specular = s->is_specular,
-            .is_in_medium = vertex_->is_in_medium()};
+  start_ = start_of_leg(*vertex_, t_vertex_, s->pdf, s->is_specular);
   ray_ = vertex_->spawn(s->wi);
   medium_ = vertex_->medium_towards(scene_, s->wi);
   return survives_roulette();

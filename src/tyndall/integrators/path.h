@@ -20,6 +20,10 @@ struct PathRules {
   const ConnectionContext* connections;  ///< null: next event estimation only
 };
 
+/// Rays between two points stop short of the second by this share of their length, lest they
+/// hit what is there.
+inline constexpr float shadow_shortening = 1e-4f;
+
 /// One camera path in the making: a random walk whose steps are its member functions.
 ///
 /// Colour: distances are drawn for one channel, the hero. `spectral_` holds the density with
@@ -65,11 +69,25 @@ class Path {
   Connection connect_to(const Vertex& vertex, const SelectedLight& selected);
   std::optional<SelectedLight> select_light(Vec3 p, float u) const;
   float light_probability(Vec3 p, size_t light) const;
+  bool is_left_to_connections(size_t light);
   float direct_weight(const LightEnd& end);
-  float hit_weight(size_t light, float light_pdf);
+  float hit_weight(size_t light, float light_pdf, float distance);
   bool counts(int more_vertices) const;
   void connect_single(Leg& leg);
   void connect_dual(Leg& leg);
+
+  // A lit point as seen from a vertex x before it.
+  struct LitView {
+    Vec3 w;           // towards it, unit
+    float distance;
+    Rgb light;        // that arrives at x from it, over the density of the lit point
+    LegStart y;       // the lit point
+    LightEnd end;
+  };
+  std::optional<LitPoint> sample_lit_point();
+  std::optional<LitView> look_at(const LitPoint& lit, const Vertex& x);
+  void connect_lit(Leg& leg);  // from the leg
+  void connect_lit();          // from the vertex
   Rgb leg_transmittance(Leg& leg, float t);
 
   const Scene& scene_;

@@ -7,13 +7,6 @@
 #include "tyndall/techniques/double_scattering_direction.h"
 
 namespace tyndall {
-namespace {
-
-// Shadow rays stop short of the light by this share of their length, lest they hit it.
-constexpr float shadow_shortening = 1e-4f;
-
-}  // namespace
-
 std::optional<SelectedLight> Path::select_light(Vec3 p, float u) const {
   if (!rules_.connections) return scene_.select_light(u);
   return rules_.connections->light_choice().at_point(p).select(scene_.lights(), u);
@@ -46,42 +39,61 @@ Path::Connection Path::connect_to(const Vertex& vertex, const SelectedLight& sel
   connection.end = {.light = selected.index,
                     .probability = light_probability(vertex.p(), selected.index),
                     .pdf = sample->pdf,
-                    .pdf_direction = sample->is_delta ? 0 : vertex.pdf(sample->wi)};
+                    .pdf_direction = sample->is_delta ? 0 : vertex.pdf(sample->wi),
+                    .to_light = sample->wi,
+                    .distance = sample->distance};
   return connection;
 }
 
 void Path::estimate_direct() {
   if (vertex_->is_specular()) return;
+  if (rules_.connections && rules_.connections->lit_surfaces() && !vertex_->is_in_medium())
+    connect_lit();
   const std::optional<SelectedLight> selected =
       select_light(vertex_->p(), sampler_.next_1d());
-  if (!selected || !counts(0)) return;
+  if (!selected || !counts(0) || is_left_to_connections(selected->index)) return;
   const Connection connection = connect_to(*vertex_, *selected);
   if (is_black(connection.light)) return;
   const float weight = direct_weight(connection.end);
   add(beta_ * connection.light * (weight / (selected->probability * connection.end.pdf)));
 }
 
+// Whether next event estimation at the current vertex would have the weight zero.
+bool Path::is_left_to_connections(size_t light) {
+  if (!rules_.connections || !vertex_->is_in_medium()) return false;
+  const ConnectionLeg::Single* single = leg_.single(light);
+  return single && single->pdf_t(t_vertex_) > 0;
+}
+
 // Of next event estimation at the current vertex.
 float Path::direct_weight(const LightEnd& end) {
-  if (!rules_.connections || !vertex_->is_in_medium())
+  if (!rules_.connections)
     return balance_heuristic(end.probability * end.pdf, end.pdf_direction);
   const TailDensities densities =
-      tail_densities(*rules_.connections, leg_before_, start_, leg_, t_vertex_, end);
+      vertex_->is_in_medium()
+          ? tail_densities(*rules_.connections, leg_before_, start_, leg_, t_vertex_, end)
+          : surface_tail_densities(*rules_.connections, leg_before_, start_,
+                                   start_of_leg(*vertex_, t_vertex_, 0, false), t_vertex_, end);
   return densities.weight(densities.direct);
 }
 
 // Of the walk that, from start_, has hit a light where the light's own sampling has the density
 // `light_pdf`.
-float Path::hit_weight(size_t light, float light_pdf) {
+float Path::hit_weight(size_t light, float light_pdf, float distance) {
   if (start_.is_specular) return 1;
   const LightEnd end{.light = light,
                      .probability = light_probability(start_.p, light),
                      .pdf = light_pdf,
-                     .pdf_direction = start_.pdf_direction};
-  if (!rules_.connections || !start_.is_in_medium)
+                     .pdf_direction = start_.pdf_direction,
+                     .to_light = ray_.d,
+                     .distance = distance};
+  if (!rules_.connections)
     return balance_heuristic(end.pdf_direction, end.probability * end.pdf);
-  const TailDensities densities = tail_densities(*rules_.connections, leg_two_before_,
-                                                 start_before_, leg_before_, start_.t, end);
+  const TailDensities densities =
+      start_.is_in_medium ? tail_densities(*rules_.connections, leg_two_before_, start_before_,
+                                           leg_before_, start_.t, end)
+                          : surface_tail_densities(*rules_.connections, leg_two_before_,
+                                                   start_before_, start_, start_.t, end);
   return densities.weight(densities.hit);
 }
 
@@ -93,6 +105,7 @@ void Path::connect(Leg& leg) {
   if (leg_.is_empty()) return;
   if (counts(1)) connect_single(leg);
   if (counts(2) && rules_.connections->settings().dual) connect_dual(leg);
+  if (rules_.connections->lit_surfaces()) connect_lit(leg);
 }
 
 Rgb Path::leg_transmittance(Leg& leg, float t) {
@@ -110,7 +123,7 @@ Rgb Path::leg_transmittance(Leg& leg, float t) {
 void Path::connect_single(Leg& leg) {
   const std::optional<SelectedLight> selected = leg_.select_light(sampler_.next_1d());
   const float u = sampler_.next_1d();
-  if (!selected) return;
+  if (!selected || leg_before_.dual_from(start_, selected->index)) return;
   const ConnectionLeg::Single* single = leg_.single(selected->index);
   if (!single) return;
   const std::optional<DistanceSample> s = single->sample(u);
@@ -154,11 +167,7 @@ void Path::connect_dual(Leg& leg) {
   const Connection connection = connect_to(y, *selected);
   if (is_black(connection.light)) return;
 
-  const LegStart start{.p = x.p(),
-                       .t = first->t,
-                       .pdf_direction = x.pdf(direction->w),
-                       .is_specular = false,
-                       .is_in_medium = true};
+  const LegStart start = start_of_leg(x, first->t, x.pdf(direction->w), false);
   const TailDensities densities = tail_densities(*rules_.connections, leg_, start, next_leg,
                                                  second->t, connection.end);
   const Rgb scattered = leg_transmittance(leg, first->t) * medium->at(x.p()).sigma_s *

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tyndall/integrators/vertex.h"
 
+#include "tyndall/integrators/lit_surface.h"
+
 namespace tyndall {
 
 Vertex::Vertex(Vec3 p, Vec3 wo, const Medium* medium) : p_(p), wo_(wo), medium_(medium) {
@@ -43,6 +45,8 @@ Rgb Vertex::albedo() const {
 }
 
 Vec3 Vertex::normal() const { return hit_ ? hit_->point.ns : Vec3{}; }
+
+bool Vertex::can_be_lit() const { return hit_ && LitSurfaceSampling::finds(*hit_->surface); }
 
 Ray Vertex::spawn(Vec3 wi) const {
   return {hit_ ? offset_origin(p_, hit_->point.ng, wi) : p_, wi};

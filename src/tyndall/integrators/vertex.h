@@ -40,6 +40,11 @@ class Vertex {
   Rgb albedo() const;    ///< for the albedo layer
   Vec3 normal() const;   ///< shading normal; zero in a medium
 
+  /// A surface that can be found by rays out of lights.
+  bool can_be_lit() const;
+  /// Unit geometric normal; zero in a medium.
+  Vec3 ng() const { return hit_ ? hit_->point.ng : Vec3{}; }
+
   /// The ray that leaves towards wi, and the medium it starts in.
   Ray spawn(Vec3 wi) const;
   const Medium* medium_towards(const Scene& scene, Vec3 wi) const;

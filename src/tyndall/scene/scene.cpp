@@ -139,6 +139,10 @@ std::optional<SurfaceHit> Scene::intersect(const Ray& ray, float t_max) const {
   return impl_->resolve(impl_->intersector.intersect(ray, t_max, RayMask::all));
 }
 
+std::optional<SurfaceHit> Scene::intersect_opaque(const Ray& ray, float t_max) const {
+  return impl_->resolve(impl_->intersector.intersect(ray, t_max, RayMask::opaque));
+}
+
 std::optional<SurfaceHit> Scene::intersect_boundary(const Ray& ray, float t_max) const {
   if (!impl_->has_boundaries) return std::nullopt;
   return impl_->resolve(impl_->intersector.intersect(ray, t_max, RayMask::boundary));

@@ -39,6 +39,8 @@ class Scene {
 
   /// The first surface in (0, t_max), opaque or boundary.
   std::optional<SurfaceHit> intersect(const Ray& ray, float t_max) const;
+  /// The first surface in (0, t_max) that is not only a boundary between media.
+  std::optional<SurfaceHit> intersect_opaque(const Ray& ray, float t_max) const;
   /// The first boundary between media in (0, t_max).
   std::optional<SurfaceHit> intersect_boundary(const Ray& ray, float t_max) const;
   /// Whether an opaque surface lies in (0, t_max).
