@@ -25,9 +25,7 @@ struct SphereWarp {
   SphereCells cells = {};
 };
 
-void PrintTo(const SphereWarp& warp, std::ostream* out) {
-  *out << warp.name;
-}
+void PrintTo(const SphereWarp& warp, std::ostream* out) { *out << warp.name; }
 
 SphereWarp cone(const std::string& name, float h, double concentration) {
   return {name,

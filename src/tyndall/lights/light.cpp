@@ -86,9 +86,7 @@ Vec2 image_position(const ImageEnvironment& light, Vec3 w) {
   return octahedral_position(normalize(light.light_from_world.vector(w)));
 }
 
-Rgb power_of(const PointLight& light, float) {
-  return light.I * (4 * pi);
-}
+Rgb power_of(const PointLight& light, float) { return light.I * (4 * pi); }
 
 // The smooth step has the mean 1/2 over cosines in the edge.
 Rgb power_of(const SpotLight& light, float) {
@@ -144,9 +142,7 @@ ImageEnvironment::ImageEnvironment(const Transform& the_world_from_light,
   distribution = PiecewiseConstant2D(weights, resolution, resolution);
 }
 
-Rgb ImageEnvironment::lookup(Vec2 p) const {
-  return pixels[pixel_index(*this, p)];
-}
+Rgb ImageEnvironment::lookup(Vec2 p) const { return pixels[pixel_index(*this, p)]; }
 
 std::optional<LightSample> Light::sample(Vec3 p, Vec2 u) const {
   return std::visit([&](const auto& light) { return draw(light, p, u); }, light_);

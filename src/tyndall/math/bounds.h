@@ -18,7 +18,9 @@ struct Bounds3 {
   Vec3 min{infinity, infinity, infinity};
   Vec3 max{-infinity, -infinity, -infinity};
 
-  constexpr bool is_empty() const { return min.x > max.x || min.y > max.y || min.z > max.z; }
+  constexpr bool is_empty() const {
+    return min.x > max.x || min.y > max.y || min.z > max.z;
+  }
   constexpr Vec3 center() const { return (min + max) * 0.5f; }
   constexpr Vec3 diagonal() const { return max - min; }
   /// Of the sphere around center() that holds the box.
@@ -57,6 +59,5 @@ struct Bounds3 {
     return t;
   }
 };
-
 
 }  // namespace tyndall

@@ -10,10 +10,8 @@
 namespace tyndall {
 
 template <typename T>
-  requires std::is_arithmetic_v<T>
-constexpr T sqr(T x) {
-  return x * x;
-}
+requires std::is_arithmetic_v<T>
+constexpr T sqr(T x) { return x * x; }
 
 /// Square root that takes the small negative numbers of rounding as zero.
 inline float safe_sqrt(float x) { return std::sqrt(std::max(x, 0.0f)); }

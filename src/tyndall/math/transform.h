@@ -13,8 +13,8 @@ using Matrix4 = std::array<std::array<float, 4>, 4>;  ///< rows of a column-vect
 
 /// An affine or projective map together with its inverse.
 ///
-/// Named a_from_b: `world_from_medium.point(p_medium)` is a point in world space, and chains
-/// read right to left: world_from_medium * medium_from_grid.
+/// Named a_from_b: `world_from_medium.point(p_medium)` is a point in world space, and
+/// chains read right to left: world_from_medium * medium_from_grid.
 class Transform {
  public:
   Transform();  ///< identity
@@ -26,8 +26,8 @@ class Transform {
   static Transform scale(Vec3 by);
   /// Turns by `angle` [degrees] about `axis`, which need not be unit but not zero.
   static Transform rotate(float angle, Vec3 axis);
-  /// camera_from_world: the camera at `eye` sees `at` along +z, `up` along +y (left-handed, as
-  /// in pbrt). Empty if the three do not span a frame.
+  /// camera_from_world: the camera at `eye` sees `at` along +z, `up` along +y (left-handed,
+  /// as in pbrt). Empty if the three do not span a frame.
   static std::optional<Transform> look_at(Vec3 eye, Vec3 at, Vec3 up);
 
   Vec3 point(Vec3 p) const;   ///< divides by w

@@ -36,9 +36,7 @@ inline Vec2 sample_concentric_disk(Vec2 u) {
   const float phi = pi / 4 * (x / y);
   return {y * std::sin(phi), y * std::cos(phi)};
 }
-constexpr float concentric_disk_pdf() {
-  return inv_pi;
-}
+constexpr float concentric_disk_pdf() { return inv_pi; }
 inline Vec2 invert_concentric_disk(Vec2 p) {
   const bool x_major = magnitude(p.x) > magnitude(p.y);
   const float major = x_major ? p.x : p.y, minor = x_major ? p.y : p.x;
@@ -61,17 +59,13 @@ inline Vec3 sample_cosine_hemisphere(Vec2 u) {
 constexpr float cosine_hemisphere_pdf(float cos_theta) {
   return cos_theta > 0 ? cos_theta * inv_pi : 0;
 }
-inline Vec2 invert_cosine_hemisphere(Vec3 w) {
-  return invert_concentric_disk({w.x, w.y});
-}
+inline Vec2 invert_cosine_hemisphere(Vec3 w) { return invert_concentric_disk({w.x, w.y}); }
 
 /// A direction of the whole sphere, uniform.
 inline Vec3 sample_uniform_sphere(Vec2 u) {
   return spherical_direction(1 - 2 * u.x, 2 * pi * u.y);
 }
-constexpr float uniform_sphere_pdf() {
-  return inv_4pi;
-}
+constexpr float uniform_sphere_pdf() { return inv_4pi; }
 inline Vec2 invert_uniform_sphere(Vec3 w) {
   return {std::clamp(0.5f * (1 - w.z), 0.0f, one_minus_epsilon), azimuth_to_unit(w.x, w.y)};
 }
@@ -95,15 +89,11 @@ inline Vec2 invert_uniform_cone(Vec3 w, float one_minus_cos_max) {
 }
 
 /// A direction of the hemisphere around +z, uniform.
-inline Vec3 sample_uniform_hemisphere(Vec2 u) {
-  return sample_uniform_cone(u, 1);
-}
+inline Vec3 sample_uniform_hemisphere(Vec2 u) { return sample_uniform_cone(u, 1); }
 constexpr float uniform_hemisphere_pdf(float cos_theta) {
   return cos_theta >= 0 ? 0.5f * inv_pi : 0;
 }
-inline Vec2 invert_uniform_hemisphere(Vec3 w) {
-  return invert_uniform_cone(w, 1);
-}
+inline Vec2 invert_uniform_hemisphere(Vec3 w) { return invert_uniform_cone(w, 1); }
 
 /// The barycentric weights of two corners of a triangle, for a point uniform by area: the
 /// map with little distortion of [Heitz19]. The third weight is 1 - x - y.
@@ -112,9 +102,7 @@ constexpr Vec2 sample_uniform_triangle(Vec2 u) {
                    : Vec2{u.x - 0.5f * u.y, 0.5f * u.y};
 }
 /// Density w.r.t. the barycentric weights; divide it by twice the area for points.
-constexpr float uniform_triangle_pdf() {
-  return 2;
-}
+constexpr float uniform_triangle_pdf() { return 2; }
 constexpr Vec2 invert_uniform_triangle(Vec2 b) {
   return b.x < b.y ? Vec2{2 * b.x, b.x + b.y} : Vec2{b.x + b.y, 2 * b.y};
 }
