@@ -62,7 +62,8 @@ class RecordCache {
   explicit RecordCache(std::vector<LightCluster> clusters,
                        RecordCacheSettings settings = {});
 
-  /// The state for readers; never null, stays valid and unchanged while held.
+  /// The state for readers; never null, stays valid and unchanged while held, during the
+  /// next update() too. Not to be called while update() runs.
   std::shared_ptr<const GuidingField> field() const { return field_; }
 
   /// Learns from the samples of a pass and replaces the field. Not to be called from two
