@@ -21,15 +21,16 @@ constexpr int tile = 16;  // [pixels]
 constexpr double level = 0.01;
 constexpr uint64_t batches = 16;
 
-const fs::path archetypes = fs::path(TYNDALL_SOURCE_DIR) / ".." / "shared/scenes/archetypes";
+const fs::path archetypes =
+    fs::path(TYNDALL_SOURCE_DIR) / ".." / "shared/scenes/archetypes";
 
 struct Case {
   std::string scene, file, reference;  // reference without extension
   bool has_two_orders;
 };
 
-// Of the integrators that connect, the two orders that they are made for, and the full picture
-// where there is nothing else.
+// Of the integrators that connect, the two orders that they are made for, and the full
+// picture where there is nothing else.
 bool is_wanted(const Case& c, const std::string& integrator) {
   return integrator == "volpath" || c.reference == "reference-d2" || !c.has_two_orders;
 }
@@ -53,8 +54,8 @@ struct TileMean {
   double mean = 0, variance = 0;
 };
 
-// The error of a reference is known as relMSE = mean of error^2 / (r^2 + epsilon), so a pixel's
-// variance is about relMSE * (r^2 + epsilon).
+// The error of a reference is known as relMSE = mean of error^2 / (r^2 + epsilon), so a
+// pixel's variance is about relMSE * (r^2 + epsilon).
 TileMean reference_tile(const Image& image, int x0, int y0, double relmse, double epsilon) {
   TileMean t;
   for (int y = y0; y < y0 + tile; ++y)
@@ -73,9 +74,9 @@ double mean_of_tile(const Image& image, int x0, int y0) {
   return mean;
 }
 
-// Even where the variance is finite, tails are heavy: a tile is rejected if both Student's t
-// over independent renders and the sign test, which knows no variance, say so: all renders on
-// one side of the reference.
+// Even where the variance is finite, tails are heavy: a tile is rejected if both Student's
+// t over independent renders and the sign test, which knows no variance, say so: all
+// renders on one side of the reference.
 struct Tile {
   RunningMoments moments;  // over renders of different seeds
   double min = 1e30, max = -1e30;
@@ -105,7 +106,8 @@ Rendered render_batches(LoadedScene loaded, const std::string& integrator) {
     const Image image = result.film.develop();
     rendered.pixels.resize(image.pixel_count());
     const std::vector<float>& green = image.find("G")->values;
-    for (size_t k = 0; k < green.size(); ++k) rendered.pixels[k] += double{green[k]} / batches;
+    for (size_t k = 0; k < green.size(); ++k)
+      rendered.pixels[k] += double{green[k]} / batches;
     size_t i = 0;
     for (int y = 0; y + tile <= image.height(); y += tile)
       for (int x = 0; x + tile <= image.width(); x += tile, ++i) {
@@ -146,7 +148,8 @@ TEST_P(ArchetypeTest, AgreesWithItsReference) {
   const Rendered rendered =
       render_batches(load_scene((archetypes / c.scene / c.file).string()), integrator);
 
-  const Image reference = read_image((archetypes / c.scene / (c.reference + ".exr")).string());
+  const Image reference =
+      read_image((archetypes / c.scene / (c.reference + ".exr")).string());
   std::ifstream json_file(archetypes / c.scene / (c.reference + ".json"));
   const nlohmann::json json = nlohmann::json::parse(json_file);
   const double relmse = json.value("relmse", 0.0);
@@ -168,17 +171,22 @@ TEST_P(ArchetypeTest, AgreesWithItsReference) {
       const double error = std::max(modeled, error_of_tile(rendered, reference, x, y));
       const double t = std::abs(a.mean() - b.mean) / error;
       const double p_value = 2 * boost::math::cdf(boost::math::complement(student, t));
-      const bool on_one_side = b.mean < rendered.tiles[i].min || b.mean > rendered.tiles[i].max;
+      const bool on_one_side =
+          b.mean < rendered.tiles[i].min || b.mean > rendered.tiles[i].max;
       if (on_one_side && p_value < sidak(level, tiles)) ++rejected;
       difference.add(a.mean() - b.mean);
       variance += sqr(error);
     }
   // The variance of volpath is infinite near lamps, and that of a tile's mean cannot be
-  // estimated: its tiles lean to the dark side until the one path comes that makes up for it.
-  // So do those of the reference of s06, a lamp in smoke, where the pictures are darkest.
-  if (integrator != "volpath" && c.scene != "s06_plume") EXPECT_EQ(rejected, 0) << "tiles of " << tiles;
+  // estimated: its tiles lean to the dark side until the one path comes that makes up for
+  // it. So do those of the reference of s06, a lamp in smoke, where the pictures are
+  // darkest.
+  if (integrator != "volpath" && c.scene != "s06_plume") {
+    EXPECT_EQ(rejected, 0) << "tiles of " << tiles;
+  }
   EXPECT_GT(z_p_value(difference.mean() * tiles, std::sqrt(variance), 0), 1e-4)
-      << "all tiles together: " << difference.mean() << " +- " << std::sqrt(variance) / tiles;
+      << "all tiles together: " << difference.mean() << " +- "
+      << std::sqrt(variance) / tiles;
 }
 
 }  // namespace

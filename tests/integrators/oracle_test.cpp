@@ -14,11 +14,12 @@ using test::estimate;
 class OracleTest : public testing::TestWithParam<std::string> {
  protected:
   // The estimate agrees with `expected`, and is precise enough for that to mean something.
-  static void expect_mean(const RunningMoments& estimate, double expected, double precision) {
+  static void expect_mean(const RunningMoments& estimate, double expected,
+                          double precision) {
     EXPECT_LT(estimate.standard_error(), precision * expected);
     EXPECT_GT(z_p_value(estimate.mean(), estimate.standard_error(), expected), 1e-4)
-        << "mean " << estimate.mean() << " +- " << estimate.standard_error() << ", expected "
-        << expected;
+        << "mean " << estimate.mean() << " +- " << estimate.standard_error()
+        << ", expected " << expected;
   }
 };
 
@@ -37,11 +38,12 @@ double airlight(const std::string& integrator, const Airlight& a, RunningMoments
   d.camera_medium = 0;
   d.media.push_back(test::grey_fog(a.beta, 0));
   d.surfaces.push_back(test::diffuse_disk(a.distance_to_disk, 1000, 0));
-  d.lights.push_back(Light(PointLight{Vec3{std::sin(a.gamma), 0, std::cos(a.gamma)} *
-                                          a.distance_to_light, Rgb(1)}));
+  d.lights.push_back(Light(PointLight{
+      Vec3{std::sin(a.gamma), 0, std::cos(a.gamma)} * a.distance_to_light, Rgb(1)}));
   const Scene scene(std::move(d));
-  moments = estimate(scene, test::settings(integrator, 1, {1, 1}), 400'000,
-                     [](Sampler&) { return Ray{{0, 0, 0}, {0, 0, 1}}; });
+  moments = estimate(scene, test::settings(integrator, 1, {1, 1}), 400'000, [](Sampler&) {
+    return Ray{{0, 0, 0}, {0, 0, 1}};
+  });
   return a.expected;
 }
 
@@ -53,11 +55,13 @@ TEST_P(OracleTest, AirlightOfAPointLight) {
   expect_mean(moments, behind, 0.005);
 }
 
-// Fluence of once scattered light at distance r from a unit isotropic source in infinite fog,
-// literature note G3: the mean radiance over all directions times 4 pi.
+// Fluence of once scattered light at distance r from a unit isotropic source in infinite
+// fog, literature note G3: the mean radiance over all directions times 4 pi.
 TEST_P(OracleTest, OnceScatteredFluence) {
-  const struct { float sigma_t, r; double fluence; } cases[] = {
-      {0.5f, 1, 0.0718280007}, {2, 1, 0.00941258109}, {0.5f, 0.5f, 0.2188342027}};
+  const struct {
+    float sigma_t, r;
+    double fluence;
+  } cases[] = {{0.5f, 1, 0.0718280007}, {2, 1, 0.00941258109}, {0.5f, 0.5f, 0.2188342027}};
   for (const auto& c : cases) {
     // sigma_s = 1 in the note: scale, since sigma_s may not exceed sigma_t.
     const float sigma_s = std::min(1.0f, c.sigma_t);
@@ -67,12 +71,12 @@ TEST_P(OracleTest, OnceScatteredFluence) {
     d.media.push_back(test::grey_fog(sigma_s, c.sigma_t - sigma_s));
     d.lights.push_back(Light(PointLight{{c.r, 0, 0}, Rgb(inv_4pi)}));
     const Scene scene(std::move(d));
-    const RunningMoments moments =
-        estimate(scene, test::settings(GetParam(), 1, {1, 1}), 400'000, [](Sampler& sampler) {
+    const RunningMoments moments = estimate(
+        scene, test::settings(GetParam(), 1, {1, 1}), 400'000, [](Sampler& sampler) {
           return Ray{{0, 0, 0}, sample_uniform_sphere(sampler.next_2d())};
         });
-    // Next event estimation alone has infinite variance here: paths may come as close to the
-    // light as they like.
+    // Next event estimation alone has infinite variance here: paths may come as close to
+    // the light as they like.
     const double precision = GetParam() == "volpath" ? 0.15 : 0.01;
     expect_mean(moments, c.fluence * double{sigma_s} / (4 * 3.14159265358979), precision);
   }
@@ -97,8 +101,10 @@ RunningMoments furnace(const std::string& integrator, Medium medium, Vec3 eye, i
 
 TEST_P(FurnaceTest, HomogeneousMediumFromOutsideAndInside) {
   for (const float g : {-0.5f, 0.0f, 0.9f}) {
-    expect_mean(furnace(GetParam(), test::grey_fog(3, 0, g), {0, 0.3f, -4}, 20'000), 1, 0.01);
-    expect_mean(furnace(GetParam(), test::grey_fog(3, 0, g), {0, 0.3f, 0.2f}, 20'000), 1, 0.01);
+    expect_mean(furnace(GetParam(), test::grey_fog(3, 0, g), {0, 0.3f, -4}, 20'000), 1,
+                0.01);
+    expect_mean(furnace(GetParam(), test::grey_fog(3, 0, g), {0, 0.3f, 0.2f}, 20'000), 1,
+                0.01);
   }
 }
 
@@ -106,8 +112,9 @@ TEST_P(FurnaceTest, GridMediumFromOutsideAndInside) {
   const Transform turned =
       Transform::rotate(30, {1, 2, 3}) * Transform::scale({1.2f, -0.8f, 1.5f});
   for (const Vec3 eye : {Vec3{0, 0.3f, -4}, Vec3{0, 0.3f, 0.2f}})
-    expect_mean(furnace(GetParam(), test::constant_grid(3, 0, 0.5f, 0.7f, turned), eye, 20'000),
-                1, 0.01);
+    expect_mean(
+        furnace(GetParam(), test::constant_grid(3, 0, 0.5f, 0.7f, turned), eye, 20'000), 1,
+        0.01);
 }
 
 // Absorption only, through nested spheres: Beer-Lambert, by distances between boundaries.
@@ -123,8 +130,9 @@ TEST_P(OracleTest, NestedAbsorbersFollowBeerLambert) {
     copy.camera = test::camera({0, 0, z}, {0, 0, 10});
     const Scene scene(std::move(copy));
     const RunningMoments moments =
-        estimate(scene, test::settings(GetParam(), 8), 50'000,
-                 [&](Sampler&) { return Ray{{0, 0, z}, {0, 0, 1}}; });
+        estimate(scene, test::settings(GetParam(), 8), 50'000, [&](Sampler&) {
+          return Ray{{0, 0, z}, {0, 0, 1}};
+        });
     const double outer = z < -2 ? 2 : z < -1 ? 1 + (-1.0 - double{z}) : 1;
     const double inner = z < -1 ? 2 : 1 - double{z};
     expect_mean(moments, std::exp(-0.4 * outer - 1.1 * inner), 0.05);
@@ -148,7 +156,8 @@ TEST_P(OracleTest, ConstantGridEqualsHomogeneousMedium) {
   };
   const Transform turned = Transform::rotate(70, {1, 1, 0}) * Transform::scale({1, 1, -2});
   const RunningMoments fog = radiance(test::grey_fog(1.5f, 0.3f, 0.6f), 1);
-  const RunningMoments grid = radiance(test::constant_grid(1.5f, 0.3f, 0.6f, 1.1f, turned), 2);
+  const RunningMoments grid =
+      radiance(test::constant_grid(1.5f, 0.3f, 0.6f, 1.1f, turned), 2);
   EXPECT_LT(fog.standard_error(), 0.02 * fog.mean());
   EXPECT_GT(welch_p_value(fog, grid), 1e-3) << fog.mean() << " vs " << grid.mean();
 }

@@ -34,18 +34,24 @@ void expect_same(const Image& a, const Image& b) {
     EXPECT_EQ(a.channels()[i].values, b.channels()[i].values) << a.channels()[i].name;
 }
 
+RenderOptions with_threads(int threads) {
+  RenderOptions options;
+  options.threads = threads;
+  return options;
+}
+
 class RenderTest : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Integrators, RenderTest, testing::ValuesIn(integrator_names()));
 
 TEST_P(RenderTest, SameImageForAnyNumberOfThreads) {
   const Scene scene(foggy_scene());
   const RenderSettings s = foggy_settings(GetParam());
-  const RenderResult one = render(scene, s, {.threads = 1});
+  const RenderResult one = render(scene, s, with_threads(1));
   EXPECT_EQ(one.statistics.samples_per_pixel, 9u);
   EXPECT_EQ(one.statistics.rejected.total(), 0);
   EXPECT_GT(one.film.develop().rgb(20, 15).r, 0);
   for (const int threads : {2, 7})
-    expect_same(one.film.develop(), render(scene, s, {.threads = threads}).film.develop());
+    expect_same(one.film.develop(), render(scene, s, with_threads(threads)).film.develop());
 }
 
 TEST_P(RenderTest, CropIsPartOfTheFullPicture) {
@@ -83,7 +89,9 @@ TEST(Render, KeepsItsTimeLimit) {
   const Scene scene(foggy_scene());
   RenderSettings s = foggy_settings("volpath");
   s.samples_per_pixel = 100'000'000;
-  const RenderResult result = render(scene, s, {.time_limit = 0.5});
+  RenderOptions options;
+  options.time_limit = 0.5;
+  const RenderResult result = render(scene, s, options);
   EXPECT_TRUE(result.statistics.stopped_early);
   EXPECT_GE(result.statistics.seconds, 0.5);
   EXPECT_LT(result.statistics.seconds, 1.5);
@@ -113,7 +121,8 @@ TEST(Render, UnknownIntegratorNamesTheKnownOnes) {
     render(scene, foggy_settings("volpth"));
     FAIL() << "no exception";
   } catch (const std::invalid_argument& e) {
-    EXPECT_NE(std::string(e.what()).find("unknown integrator \"volpth\""), std::string::npos);
+    EXPECT_NE(std::string(e.what()).find("unknown integrator \"volpth\""),
+              std::string::npos);
     EXPECT_NE(std::string(e.what()).find("volpath"), std::string::npos);
   }
 }

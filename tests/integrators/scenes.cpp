@@ -11,15 +11,16 @@ Medium grey_fog(float sigma_s, float sigma_a, float g) {
 
 Medium constant_grid(float sigma_s, float sigma_a, float g, float size,
                      const Transform& world_from_medium) {
-  // The interpolant falls to zero at the border, so the grid is larger than what is used of it.
+  // The interpolant falls to zero at the border, so the grid is larger than what is used of
+  // it.
   constexpr int n = 12;
   DensityGrid grid{{n, n, n}, std::vector<float>(n * n * n, 1.0f)};
   const float half = size * n / (n - 4);
   const MediumProperties properties{Rgb(sigma_a), Rgb(sigma_s), Rgb(0)};
-  return Medium(GridMedium(std::move(grid), Bounds3{{-half, -half, -half}, {half, half, half}},
-                           world_from_medium, properties,
-                           g == 0 ? PhaseFunction(IsotropicPhase{})
-                                  : PhaseFunction(HenyeyGreenstein(g))));
+  return Medium(GridMedium(
+      std::move(grid), Bounds3{{-half, -half, -half}, {half, half, half}},
+      world_from_medium, properties,
+      g == 0 ? PhaseFunction(IsotropicPhase{}) : PhaseFunction(HenyeyGreenstein(g))));
 }
 
 Surface boundary_sphere(float radius, Vec3 center, int inside, int outside) {
@@ -52,8 +53,9 @@ Surface boundary_box(float size, int inside, int outside) {
   std::vector<Vec3> positions;
   for (int i = 0; i < 8; ++i)
     positions.push_back({i & 1 ? size : -size, i & 2 ? size : -size, i & 4 ? size : -size});
-  std::vector<Vec3i> triangles{{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
-                               {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  std::vector<Vec3i> triangles{{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6},
+                               {0, 1, 5}, {0, 5, 4}, {2, 6, 7}, {2, 7, 3},
+                               {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
   return {.shape = TriangleMesh(std::move(positions), std::move(triangles), {}, {}, false),
           .material = InterfaceBsdf{},
           .media = {.inside = inside, .outside = outside, .is_stated = true},
@@ -68,7 +70,8 @@ PerspectiveCamera camera(Vec3 eye, Vec3 at, float fov, Vec2i resolution) {
   return {s, resolution};
 }
 
-RenderSettings settings(const std::string& integrator, int max_depth, ScatteringOrders orders) {
+RenderSettings settings(const std::string& integrator, int max_depth,
+                        ScatteringOrders orders) {
   RenderSettings s;
   s.integrator = integrator;
   s.max_depth = max_depth;

@@ -11,12 +11,14 @@ namespace tyndall::test {
 
 /// A grey medium without emission.
 Medium grey_fog(float sigma_s, float sigma_a, float g = 0);
-/// The same medium as a grid of constant density over a box [-size, size]^3, under a transform.
+/// The same medium as a grid of constant density over a box [-size, size]^3, under a
+/// transform.
 Medium constant_grid(float sigma_s, float sigma_a, float g, float size,
                      const Transform& world_from_medium = {});
 
 /// A full sphere that is only the boundary between medium 0 inside and nothing outside.
-Surface boundary_sphere(float radius, Vec3 center = {}, int inside = 0, int outside = no_medium);
+Surface boundary_sphere(float radius, Vec3 center = {}, int inside = 0,
+                        int outside = no_medium);
 /// A diffuse disk of the given reflectance, facing -z, at height z.
 Surface diffuse_disk(float z, float radius, float reflectance);
 /// A box boundary of half-width `size` around the origin.

@@ -22,7 +22,8 @@ constexpr float floor_share = 0.1f;
 ConnectionContext::ConnectionContext(const Scene& scene, const ConnectionSettings& settings)
     : scene_(&scene), settings_(settings), light_choice_(scene.lights(), scene.bounds()) {
   if (settings.visibility)
-    visibility_ = std::make_unique<const LightVisibility>(scene, visibility_bytes, visibility_floor);
+    visibility_ =
+        std::make_unique<const LightVisibility>(scene, visibility_bytes, visibility_floor);
   if (settings.lit_surfaces) lit_.emplace(scene);
   std::map<float, std::shared_ptr<const ScatteringTables>> by_g;
   for (const Medium& medium : scene.description().media) {
@@ -39,12 +40,14 @@ const ScatteringTables& ConnectionContext::tables(const Medium& medium) const {
 
 std::optional<Vec3> Pivots::operator()(size_t light) const {
   RandomStream stream(hash(key_, light));
-  const std::optional<LightPoint> point = scene_->lights()[light].sample_point(stream.next_2d());
+  const std::optional<LightPoint> point =
+      scene_->lights()[light].sample_point(stream.next_2d());
   if (!point) return std::nullopt;
   return point->on.p;
 }
 
-ConnectionLeg::ConnectionLeg(const ConnectionContext& context, const Pivots& pivots, Leg& leg)
+ConnectionLeg::ConnectionLeg(const ConnectionContext& context, const Pivots& pivots,
+                             Leg& leg)
     : context_(&context), pivots_(&pivots), ray_(leg.ray()), proxy_(leg) {
   if (proxy_.is_empty()) return;
   t_max_ = proxy_.distance_to(end_transmittance);
@@ -62,7 +65,8 @@ std::optional<SelectedLight> ConnectionLeg::select_light(float u) {
 float ConnectionLeg::light_probability(size_t light) { return lights().probability(light); }
 
 template <int K>
-DistanceWeights<K> ConnectionLeg::weights(const DistanceTaps<K>& taps, bool with_phase) const {
+DistanceWeights<K> ConnectionLeg::weights(const DistanceTaps<K>& taps,
+                                          bool with_phase) const {
   auto weights = DistanceWeights<K>::ones();
   const Medium* medium = proxy_.first_medium();
   if (proxy_.is_uniform() && medium->is_homogeneous()) {

@@ -18,12 +18,12 @@ namespace tyndall {
 
 /// Which connections the vertices of a walk make, beside next event estimation.
 struct ConnectionSettings {
-  bool single = false;     ///< through one further scattering vertex on the leg
-  bool dual = false;       ///< through two: one on the leg, one beyond
+  bool single = false;  ///< through one further scattering vertex on the leg
+  bool dual = false;    ///< through two: one on the leg, one beyond
   /// Legs along which the distance to the light varies by less than this factor are left to
   /// next event estimation: there is nothing to gain.
   float min_distance_ratio = 1.2f;
-  bool visibility = false;  ///< predict what the lights see, for distances
+  bool visibility = false;    ///< predict what the lights see, for distances
   bool lit_surfaces = false;  ///< connect to surfaces that lights shine on
 };
 
@@ -51,9 +51,9 @@ class ConnectionContext {
   std::map<const Medium*, std::shared_ptr<const ScatteringTables>> tables_;
 };
 
-/// One point of each light, fixed for a path: what its techniques aim at. Techniques that share
-/// a path share the points, so that each density can be evaluated by all of them; the light is
-/// then sampled properly from the vertex before it.
+/// One point of each light, fixed for a path: what its techniques aim at. Techniques that
+/// share a path share the points, so that each density can be evaluated by all of them; the
+/// light is then sampled properly from the vertex before it.
 class Pivots {
  public:
   Pivots(const Scene& scene, uint64_t key) : scene_(&scene), key_(key) {}
@@ -68,12 +68,12 @@ class Pivots {
 /// Where a leg begins, as far as the densities of other techniques need to know.
 struct LegStart {
   Vec3 p;
-  float t = 0;                 ///< of p along the leg before
-  float pdf_direction = 1;     ///< with which the walk turns into the leg [1/sr]
-  bool is_specular = true;     ///< the camera, or a Dirac delta: the direction has no density
+  float t = 0;              ///< of p along the leg before
+  float pdf_direction = 1;  ///< with which the walk turns into the leg [1/sr]
+  bool is_specular = true;  ///< the camera, or a Dirac delta: the direction has no density
   bool is_in_medium = false;
-  Vec3 ng;                     ///< of a surface
-  bool can_be_lit = false;     ///< a surface that LitSurfaceSampling finds
+  Vec3 ng;                  ///< of a surface
+  bool can_be_lit = false;  ///< a surface that LitSurfaceSampling finds
 };
 
 /// The densities of the scattering vertices that connections put on one leg.
@@ -101,7 +101,8 @@ class ConnectionLeg {
   using Double = BinnedDistance<DoubleScatteringDistance, 8>;
   const Double* dual(size_t light);
   /// The vertex from which a lit point of a surface is seen: equi-angular about it, times
-  /// transmittance, phase function and the cosine at the surface. Empty where nothing scatters.
+  /// transmittance, phase function and the cosine at the surface. Empty where nothing
+  /// scatters.
   using Lit = BinnedDistance<EquiangularSampling, 16>;
   std::optional<Lit> lit(Vec3 p, Vec3 ng, Vec3 to_light) const;
   /// As dual(), but null also if no dual connection can have put its first vertex at `x`.
@@ -123,9 +124,9 @@ class ConnectionLeg {
   const Pivots* pivots_ = nullptr;
   Ray ray_{};
   LegProxy proxy_;
-  float t_max_ = 0;  // beyond, the proxy lets no light through
+  float t_max_ = 0;                           // beyond, the proxy lets no light through
   std::optional<LightProbabilities> lights_;  // once somebody asks
-  std::optional<PerLight> cache_;  // of the light last asked for
+  std::optional<PerLight> cache_;             // of the light last asked for
 };
 
 }  // namespace tyndall

@@ -18,13 +18,14 @@ class Integrator {
 
   virtual ~Integrator() = default;
 
-  /// An unbiased estimate of the radiance that arrives against ray.d. Called from many threads;
-  /// depends on nothing but its arguments and what prepare() left.
+  /// An unbiased estimate of the radiance that arrives against ray.d. Called from many
+  /// threads; depends on nothing but its arguments and what prepare() left.
   virtual PathSample Li(const Ray& ray, Sampler& sampler) const = 0;
 
-  /// Called between passes, before sample `first` of each pixel, on no other thread's time. An
-  /// integrator that learns does so here. Returns up to which sample it may go on before it
-  /// wants to be called again; a function of `first` alone, so that time limits change nothing.
+  /// Called between passes, before sample `first` of each pixel, on no other thread's time.
+  /// An integrator that learns does so here. Returns up to which sample it may go on before
+  /// it wants to be called again; a function of `first` alone, so that time limits change
+  /// nothing.
   virtual uint32_t prepare(uint32_t /*first*/) { return unlimited; }
 
   /// Adds counters and notes.
@@ -32,6 +33,7 @@ class Integrator {
 };
 
 /// Throws std::invalid_argument for an unknown name or option.
-std::unique_ptr<Integrator> make_integrator(const Scene& scene, const RenderSettings& settings);
+std::unique_ptr<Integrator> make_integrator(const Scene& scene,
+                                            const RenderSettings& settings);
 
 }  // namespace tyndall

@@ -4,7 +4,8 @@
 namespace tyndall {
 namespace {
 
-// More crossings than any real scene has: a ray caught between coincident surfaces gives up.
+// More crossings than any real scene has: a ray caught between coincident surfaces gives
+// up.
 constexpr size_t max_spans = 4096;
 
 bool is_boundary(const SurfaceHit& hit) {

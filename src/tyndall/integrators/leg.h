@@ -13,8 +13,8 @@ namespace tyndall {
 /// Stands for infinity where a product with zero must stay zero [scene units].
 inline constexpr float far_distance = 1e30f;
 
-/// The straight way of light from a vertex to the first surface that is not a mere boundary,
-/// cut into spans of one medium each. Traced no farther than asked for.
+/// The straight way of light from a vertex to the first surface that is not a mere
+/// boundary, cut into spans of one medium each. Traced no farther than asked for.
 class Leg {
  public:
   struct Span {
@@ -49,10 +49,13 @@ class Leg {
   const Medium* medium_;
 };
 
-/// Unbiased estimate of the transmittance of one medium. Never negative, as radiance must not
-/// be: ray marching has the least variance, but a negative sample every few thousand paths.
-inline Rgb estimate_span(const Medium& medium, const Ray& ray, float t_max, RandomStream& rng) {
-  return estimate_transmittance(medium, ray, t_max, rng, TransmittanceMethod::ratio_tracking);
+/// Unbiased estimate of the transmittance of one medium. Never negative, as radiance must
+/// not be: ray marching has the least variance, but a negative sample every few thousand
+/// paths.
+inline Rgb estimate_span(const Medium& medium, const Ray& ray, float t_max,
+                         RandomStream& rng) {
+  return estimate_transmittance(medium, ray, t_max, rng,
+                                TransmittanceMethod::ratio_tracking);
 }
 
 /// Unbiased estimate of the transmittance along [0, t_max] of a ray that no surface blocks,

@@ -7,9 +7,9 @@
 
 namespace tyndall {
 
-/// A piecewise constant stand-in for the extinction along a whole leg, through all its media:
-/// the mean of the channels of the media's own proxies. Densities and MIS weights are made
-/// from it; it may be wrong, at the cost of variance only.
+/// A piecewise constant stand-in for the extinction along a whole leg, through all its
+/// media: the mean of the channels of the media's own proxies. Densities and MIS weights
+/// are made from it; it may be wrong, at the cost of variance only.
 class LegProxy {
  public:
   /// Empty: no medium anywhere.
@@ -32,9 +32,9 @@ class LegProxy {
    public:
     explicit Cursor(const LegProxy& proxy) : proxy_(&proxy) {}
     void move_to(float t);
-    float sigma_t() const { return sigma_t_; }            ///< [1/scene unit]
+    float sigma_t() const { return sigma_t_; }  ///< [1/scene unit]
     float transmittance() const { return transmittance_; }
-    const Medium* medium() const { return medium_; }      ///< null outside all
+    const Medium* medium() const { return medium_; }  ///< null outside all
 
    private:
     const LegProxy* proxy_;

@@ -46,8 +46,8 @@ std::unique_ptr<const VisibilityMap> trace_map(const Scene& scene, const Light& 
     };
   tbb::parallel_for(0, map->rows(), [&](int row) {
     map->trace_rows(
-        row, row + 1, [&](const Ray& ray) { return distance_to_occluder(scene, light, ray); },
-        origin);
+        row, row + 1,
+        [&](const Ray& ray) { return distance_to_occluder(scene, light, ray); }, origin);
   });
   map->finish();
   return map;
@@ -63,9 +63,11 @@ LightVisibility::LightVisibility(const Scene& scene, size_t max_bytes, float flo
   // Four distances a texel, and a third more for the pyramid.
   constexpr size_t bytes_per_texel = 22;
   while (settings.resolution > min_resolution &&
-         count * bytes_per_texel * static_cast<size_t>(sqr(settings.resolution)) > max_bytes)
+         count * bytes_per_texel * static_cast<size_t>(sqr(settings.resolution)) >
+             max_bytes)
     settings.resolution /= 2;
-  for (const Light& light : scene.lights()) maps_.push_back(trace_map(scene, light, settings));
+  for (const Light& light : scene.lights())
+    maps_.push_back(trace_map(scene, light, settings));
 }
 
 void LightVisibility::multiply(size_t light, const Ray& ray, std::span<const float> t,

@@ -19,8 +19,8 @@ class LightVisibility {
   /// Traces in parallel.
   LightVisibility(const Scene& scene, size_t max_bytes, float floor);
 
-  /// Multiplies weights[i] by the visibility of ray.at(t[i]) from the light. `footprint` is the
-  /// angle between neighbouring points, seen from the light [rad].
+  /// Multiplies weights[i] by the visibility of ray.at(t[i]) from the light. `footprint` is
+  /// the angle between neighbouring points, seen from the light [rad].
   void multiply(size_t light, const Ray& ray, std::span<const float> t, float footprint,
                 std::span<float> weights) const;
   size_t memory() const;  ///< [bytes]

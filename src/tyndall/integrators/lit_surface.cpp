@@ -91,8 +91,8 @@ std::optional<LitPoint> LitSurfaceSampling::sample(float u_light, Vec2 u_point,
 }
 
 float LitSurfaceSampling::density(size_t light, Vec3 to_light, float distance) const {
-  // Both densities have the cosine at the surface and, for area lights, the one at the light
-  // over the squared distance in common.
+  // Both densities have the cosine at the surface and, for area lights, the one at the
+  // light over the squared distance in common.
   const LightVariant& variant = scene_->lights()[light].variant();
   const float p = probability(light);
   if (std::holds_alternative<PointLight>(variant)) return p * inv_4pi / sqr(distance);

@@ -13,10 +13,10 @@ namespace tyndall {
 /// meets them.
 struct LitPoint {
   SurfaceHit hit;
-  Vec3 to_light;  ///< unit
+  Vec3 to_light;   ///< unit
   float distance;  ///< to the light
-  Rgb emission;   ///< intensity, or radiance times cosine, that leaves the light towards it
-  float pdf;      ///< of light, light point and direction [1/sr, or 1/(sr unit^2)]
+  Rgb emission;  ///< intensity, or radiance times cosine, that leaves the light towards it
+  float pdf;     ///< of light, light point and direction [1/sr, or 1/(sr unit^2)]
   size_t light;
   SurfacePoint on_light;  ///< of area lights
 };
@@ -32,9 +32,10 @@ class LitSurfaceSampling {
   /// Empty if the ray meets no surface that reflects light diffusely.
   std::optional<LitPoint> sample(float u_light, Vec2 u_point, Vec2 u_direction) const;
 
-  /// Density of sample() for a surface point at `distance` from the light, which lies in the
-  /// unit direction `to_light`: in the measure of area, up to the factor that turns the solid
-  /// angle of next event estimation from there into the light's area (one if it is a delta).
+  /// Density of sample() for a surface point at `distance` from the light, which lies in
+  /// the unit direction `to_light`: in the measure of area, up to the factor that turns the
+  /// solid angle of next event estimation from there into the light's area (one if it is a
+  /// delta).
   float density(size_t light, Vec3 to_light, float distance) const;
 
  private:

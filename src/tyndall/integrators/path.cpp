@@ -99,8 +99,8 @@ void Path::pass(Rgb factor) {
   spectral_ *= factor;
 }
 
-void Path::add_volume_emission(const MediumProperties& properties, Rgb relative_transmittance,
-                               float majorant) {
+void Path::add_volume_emission(const MediumProperties& properties,
+                               Rgb relative_transmittance, float majorant) {
   if (!rules_.orders.contains(order_)) return;
   const Rgb emitted = properties.sigma_a * properties.Le / majorant;
   // The density of a tentative collision is majorant * transmittance in every channel.
@@ -137,8 +137,8 @@ bool Path::scatter() {
   return survives_roulette();
 }
 
-// A path goes on with the probability of what it can still carry; in a medium of albedo one it
-// carries all and is never ended.
+// A path goes on with the probability of what it can still carry; in a medium of albedo one
+// it carries all and is never ended.
 bool Path::survives_roulette() {
   const float carried = max_component(beta_) / average(spectral_) * eta_scale_;
   if (depth_ <= roulette_free_depth || carried >= 1) return carried > 0;

@@ -20,15 +20,16 @@ struct PathRules {
   const ConnectionContext* connections;  ///< null: next event estimation only
 };
 
-/// Rays between two points stop short of the second by this share of their length, lest they
-/// hit what is there.
+/// Rays between two points stop short of the second by this share of their length, lest
+/// they hit what is there.
 inline constexpr float shadow_shortening = 1e-4f;
 
 /// One camera path in the making: a random walk whose steps are its member functions.
 ///
-/// Colour: distances are drawn for one channel, the hero. `spectral_` holds the density with
-/// which each channel would have drawn the same walk, relative to the hero's; dividing by the
-/// mean over channels is single-sample spectral MIS [Wilkie14] over the choice of the hero.
+/// Colour: distances are drawn for one channel, the hero. `spectral_` holds the density
+/// with which each channel would have drawn the same walk, relative to the hero's; dividing
+/// by the mean over channels is single-sample spectral MIS [Wilkie14] over the choice of
+/// the hero.
 class Path {
  public:
   Path(const Scene& scene, const PathRules& rules, const Ray& ray, Sampler& sampler);
@@ -36,15 +37,16 @@ class Path {
   const Ray& ray() const { return ray_; }
   const Medium* medium() const { return medium_; }
 
-  /// Connects vertices on the leg, beyond what the walk will choose, to lights: adds the light
-  /// of paths with one and with two more scattering vertices in media.
+  /// Connects vertices on the leg, beyond what the walk will choose, to lights: adds the
+  /// light of paths with one and with two more scattering vertices in media.
   void connect(Leg& leg);
-  /// Goes along the leg to the next scattering vertex; adds what glows on the way. False if the
-  /// path ends.
+  /// Goes along the leg to the next scattering vertex; adds what glows on the way. False if
+  /// the path ends.
   bool advance(Leg& leg);
   /// Next event estimation: connects the vertex to a light.
   void estimate_direct();
-  /// Draws the direction of the next leg and plays Russian roulette. False if the path ends.
+  /// Draws the direction of the next leg and plays Russian roulette. False if the path
+  /// ends.
   bool scatter();
 
   const PathSample& result() const { return result_; }
@@ -63,7 +65,7 @@ class Path {
 
   // Light that arrives at a vertex from a light, and the densities of the sample.
   struct Connection {
-    Rgb light;      // f * T * L, or black
+    Rgb light;  // f * T * L, or black
     LightEnd end;
   };
   Connection connect_to(const Vertex& vertex, const SelectedLight& selected);
@@ -78,10 +80,10 @@ class Path {
 
   // A lit point as seen from a vertex x before it.
   struct LitView {
-    Vec3 w;           // towards it, unit
+    Vec3 w;  // towards it, unit
     float distance;
-    Rgb light;        // that arrives at x from it, over the density of the lit point
-    LegStart y;       // the lit point
+    Rgb light;   // that arrives at x from it, over the density of the lit point
+    LegStart y;  // the lit point
     LightEnd end;
   };
   std::optional<LitPoint> sample_lit_point();
@@ -100,11 +102,11 @@ class Path {
   Rgb beta_{1};
   Rgb spectral_{1};
   int hero_ = 0;
-  int depth_ = 0;   // scattering vertices so far
-  int order_ = 0;   // of them, in media
+  int depth_ = 0;  // scattering vertices so far
+  int order_ = 0;  // of them, in media
   float eta_scale_ = 1;
   std::optional<Vertex> vertex_;
-  float t_vertex_ = 0;           // along the leg to it
+  float t_vertex_ = 0;  // along the leg to it
 
   // The last legs, for the densities of techniques that the walk did not use.
   Pivots pivots_;

@@ -34,7 +34,8 @@ Path::Connection Path::connect_to(const Vertex& vertex, const SelectedLight& sel
   const float t_max = sample->distance * (1 - shadow_shortening);
   if (scene_.is_occluded(shadow, t_max)) return connection;
   const Medium* medium = vertex.medium_towards(scene_, sample->wi);
-  const Rgb T = transmittance(scene_, shadow, std::min(t_max, far_distance), medium, tracking_);
+  const Rgb T =
+      transmittance(scene_, shadow, std::min(t_max, far_distance), medium, tracking_);
   connection.light = f * T * sample->L;
   connection.end = {.light = selected.index,
                     .probability = light_probability(vertex.p(), selected.index),
@@ -73,12 +74,13 @@ float Path::direct_weight(const LightEnd& end) {
       vertex_->is_in_medium()
           ? tail_densities(*rules_.connections, leg_before_, start_, leg_, t_vertex_, end)
           : surface_tail_densities(*rules_.connections, leg_before_, start_,
-                                   start_of_leg(*vertex_, t_vertex_, 0, false), t_vertex_, end);
+                                   start_of_leg(*vertex_, t_vertex_, 0, false), t_vertex_,
+                                   end);
   return densities.weight(densities.direct);
 }
 
-// Of the walk that, from start_, has hit a light where the light's own sampling has the density
-// `light_pdf`.
+// Of the walk that, from start_, has hit a light where the light's own sampling has the
+// density `light_pdf`.
 float Path::hit_weight(size_t light, float light_pdf, float distance) {
   if (start_.is_specular) return 1;
   const LightEnd end{.light = light,
@@ -90,8 +92,8 @@ float Path::hit_weight(size_t light, float light_pdf, float distance) {
   if (!rules_.connections)
     return balance_heuristic(end.pdf_direction, end.probability * end.pdf);
   const TailDensities densities =
-      start_.is_in_medium ? tail_densities(*rules_.connections, leg_two_before_, start_before_,
-                                           leg_before_, start_.t, end)
+      start_.is_in_medium ? tail_densities(*rules_.connections, leg_two_before_,
+                                           start_before_, leg_before_, start_.t, end)
                           : surface_tail_densities(*rules_.connections, leg_two_before_,
                                                    start_before_, start_, start_.t, end);
   return densities.weight(densities.hit);
@@ -114,8 +116,8 @@ Rgb Path::leg_transmittance(Leg& leg, float t) {
     if (span->t_min >= t) break;
     if (!span->medium) continue;
     const Ray rest{leg.ray().at(span->t_min), leg.ray().d};
-    product *= estimate_span(*span->medium, rest,
-                                      std::min(t, span->t_max) - span->t_min, tracking_);
+    product *= estimate_span(*span->medium, rest, std::min(t, span->t_max) - span->t_min,
+                             tracking_);
   }
   return product;
 }
@@ -168,8 +170,8 @@ void Path::connect_dual(Leg& leg) {
   if (is_black(connection.light)) return;
 
   const LegStart start = start_of_leg(x, first->t, x.pdf(direction->w), false);
-  const TailDensities densities = tail_densities(*rules_.connections, leg_, start, next_leg,
-                                                 second->t, connection.end);
+  const TailDensities densities =
+      tail_densities(*rules_.connections, leg_, start, next_leg, second->t, connection.end);
   const Rgb scattered = leg_transmittance(leg, first->t) * medium->at(x.p()).sigma_s *
                         x.eval(direction->w) * leg_transmittance(next, second->t) *
                         last_medium->at(y.p()).sigma_s;

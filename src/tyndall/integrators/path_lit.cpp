@@ -73,8 +73,7 @@ void Path::connect_lit() {
   if (!lit) return;
   const std::optional<LitView> view = look_at(*lit, *vertex_);
   if (!view || is_black(view->light)) return;
-  const LegStart start =
-      start_of_leg(*vertex_, t_vertex_, vertex_->pdf(view->w), false);
+  const LegStart start = start_of_leg(*vertex_, t_vertex_, vertex_->pdf(view->w), false);
   const TailDensities densities = surface_tail_densities(
       *rules_.connections, leg_, start, view->y, view->distance, view->end);
   add(beta_ * vertex_->eval(view->w) * view->light * densities.weight(densities.lit));

@@ -8,10 +8,11 @@ namespace tyndall {
 PathTracer::PathTracer(const Scene& scene, const RenderSettings& settings,
                        const ConnectionSettings& connections)
     : scene_(scene),
-      rules_{.max_depth = settings.max_depth,
-             .orders = settings.orders,
-             .is_chromatic = !std::ranges::all_of(scene.description().media, &Medium::is_grey),
-             .connections = nullptr} {
+      rules_{
+          .max_depth = settings.max_depth,
+          .orders = settings.orders,
+          .is_chromatic = !std::ranges::all_of(scene.description().media, &Medium::is_grey),
+          .connections = nullptr} {
   if (!connections.single) return;
   connections_.emplace(scene, connections);
   // Without finite lights there is nothing to connect to.

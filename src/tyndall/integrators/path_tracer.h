@@ -6,9 +6,9 @@
 
 namespace tyndall {
 
-/// Unidirectional volumetric path tracing with next event estimation and, where `connections`
-/// asks for them, joint connections through further vertices: the integrators `volpath` (none),
-/// `equiangular` (single) and `jis` (single and dual).
+/// Unidirectional volumetric path tracing with next event estimation and, where
+/// `connections` asks for them, joint connections through further vertices: the integrators
+/// `volpath` (none), `equiangular` (single) and `jis` (single and dual).
 class PathTracer : public Integrator {
  public:
   PathTracer(const Scene& scene, const RenderSettings& settings,

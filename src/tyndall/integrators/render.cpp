@@ -48,7 +48,8 @@ struct Pass {
 // One render() call: the passes, their sizes, and what is told of them.
 class RenderJob {
  public:
-  RenderJob(const Scene& scene, const RenderSettings& settings, const RenderOptions& options)
+  RenderJob(const Scene& scene, const RenderSettings& settings,
+            const RenderOptions& options)
       : scene_(scene),
         settings_(settings),
         options_(options),
@@ -104,8 +105,8 @@ class RenderJob {
     return options_.time_limit && clock_.seconds() >= *options_.time_limit;
   }
 
-  // Sizes depend on the clock, images do not: a pixel's samples are the same however they are
-  // cut into passes.
+  // Sizes depend on the clock, images do not: a pixel's samples are the same however they
+  // are cut into passes.
   uint32_t next_pass_size() {
     const uint32_t left = settings_.samples_per_pixel - done_;
     if (done_ == 0) return 1;
@@ -132,7 +133,8 @@ class RenderJob {
   void render_tile(const tbb::blocked_range2d<int>& tile, Pass pass) {
     for (int y = tile.rows().begin(); y < tile.rows().end(); ++y)
       for (int x = tile.cols().begin(); x < tile.cols().end(); ++x)
-        for (uint32_t i = pass.first; i < pass.first + pass.count; ++i) render_sample({x, y}, i);
+        for (uint32_t i = pass.first; i < pass.first + pass.count; ++i)
+          render_sample({x, y}, i);
     const auto pixels = static_cast<int64_t>(tile.rows().size() * tile.cols().size());
     tell_progress(pass, finished_pixels_ += pixels);
   }
@@ -140,8 +142,9 @@ class RenderJob {
   void render_sample(Vec2i pixel, uint32_t index) {
     Sampler sampler(settings_.sampler, settings_.seed, pixel, index);
     const FilterSample offset = filter_.sample(sampler.next_2d());
-    const Vec2 p_film = Vec2{static_cast<float>(pixel.x) + 0.5f,
-                             static_cast<float>(pixel.y) + 0.5f} + offset.offset;
+    const Vec2 p_film =
+        Vec2{static_cast<float>(pixel.x) + 0.5f, static_cast<float>(pixel.y) + 0.5f} +
+        offset.offset;
     const Vec2 u_lens =
         scene_.camera().settings().lens_radius > 0 ? sampler.next_2d() : Vec2{0.5f, 0.5f};
     const PathSample sample = integrator_->Li(scene_.camera().ray(p_film, u_lens), sampler);

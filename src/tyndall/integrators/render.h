@@ -25,20 +25,21 @@ struct RenderProgress {
 
 /// How a render is run, as opposed to what is rendered.
 struct RenderOptions {
-  int threads = 0;                      ///< zero: all that the process may use
-  std::optional<double> time_limit;     ///< [s]; the pass in hand is finished
+  int threads = 0;                   ///< zero: all that the process may use
+  std::optional<double> time_limit;  ///< [s]; the pass in hand is finished
   /// Set to true from anywhere, a signal handler too, to stop after the pass in hand.
   const std::atomic<bool>* stop = nullptr;
   /// Called from one thread at a time, at most about ten times a second.
   std::function<void(const RenderProgress&)> on_progress;
-  /// Called after each pass with the film so far and its samples per pixel, for checkpoints.
+  /// Called after each pass with the film so far and its samples per pixel, for
+  /// checkpoints.
   std::function<void(const Film&, uint32_t samples)> on_pass;
 };
 
 struct RenderStatistics {
-  double seconds = 0;          ///< wall time in the passes, training included
+  double seconds = 0;  ///< wall time in the passes, training included
   double training_seconds = 0;
-  double cpu_seconds = 0;      ///< of the process during the render
+  double cpu_seconds = 0;  ///< of the process during the render
   uint32_t samples_per_pixel = 0;
   int64_t paths = 0;
   int threads = 0;
@@ -57,9 +58,9 @@ struct RenderResult {
 /// The names that RenderSettings::integrator may have.
 std::vector<std::string> integrator_names();
 
-/// Renders in passes of growing size. The same scene, seed and number of samples give the same
-/// film bit for bit with any number of threads. Throws std::invalid_argument for an unknown
-/// integrator or option, naming the nearest valid ones.
+/// Renders in passes of growing size. The same scene, seed and number of samples give the
+/// same film bit for bit with any number of threads. Throws std::invalid_argument for an
+/// unknown integrator or option, naming the nearest valid ones.
 RenderResult render(const Scene& scene, const RenderSettings& settings,
                     const RenderOptions& options = {});
 

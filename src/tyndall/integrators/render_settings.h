@@ -12,8 +12,8 @@
 
 namespace tyndall {
 
-/// Which numbers of scattering events in media a path must have to count; surface bounces are
-/// free. The default keeps all.
+/// Which numbers of scattering events in media a path must have to count; surface bounces
+/// are free. The default keeps all.
 struct ScatteringOrders {
   int min = 0;
   int max = 1 << 30;
@@ -21,7 +21,8 @@ struct ScatteringOrders {
   bool contains(int order) const { return min <= order && order <= max; }
 };
 
-/// How a scene is to be rendered: what pbrt's Integrator, Sampler, Film and PixelFilter say.
+/// How a scene is to be rendered: what pbrt's Integrator, Sampler, Film and PixelFilter
+/// say.
 struct RenderSettings {
   std::string integrator = "volpath";
   /// Scattering vertices between camera and light, interfaces not counted, as in pbrt-v4.

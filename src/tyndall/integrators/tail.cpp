@@ -7,10 +7,10 @@ namespace tyndall {
 
 namespace {
 
-// Density of the dual connection for the last two vertices, without what it has in common with
-// a single one.
-float dual_density(const ConnectionContext& context, ConnectionLeg& before, const LegStart& x,
-                   const ConnectionLeg& leg, size_t light) {
+// Density of the dual connection for the last two vertices, without what it has in common
+// with a single one.
+float dual_density(const ConnectionContext& context, ConnectionLeg& before,
+                   const LegStart& x, const ConnectionLeg& leg, size_t light) {
   const ConnectionLeg::Double* dual = before.dual_from(x, light);
   const Medium* medium = dual ? before.proxy().medium_at(x.t) : nullptr;
   if (!medium) return 0;
@@ -21,7 +21,8 @@ float dual_density(const ConnectionContext& context, ConnectionLeg& before, cons
 
 }  // namespace
 
-LegStart start_of_leg(const Vertex& vertex, float t, float pdf_direction, bool is_specular) {
+LegStart start_of_leg(const Vertex& vertex, float t, float pdf_direction,
+                      bool is_specular) {
   return {.p = vertex.p(),
           .t = t,
           .pdf_direction = pdf_direction,
@@ -54,7 +55,8 @@ TailDensities tail_densities(const ConnectionContext& context, ConnectionLeg& be
 
 TailDensities surface_tail_densities(const ConnectionContext& context,
                                      const ConnectionLeg& before, const LegStart& x,
-                                     const LegStart& y, float distance, const LightEnd& end) {
+                                     const LegStart& y, float distance,
+                                     const LightEnd& end) {
   TailDensities densities{.direct = end.probability * end.pdf, .hit = end.pdf_direction};
   const LitSurfaceSampling* lit = context.lit_surfaces();
   if (!lit || x.is_specular || !y.can_be_lit) return densities;

@@ -10,21 +10,21 @@ namespace tyndall {
 struct LightEnd {
   size_t light;
   float probability;  ///< of next event estimation to choose the light
-  float pdf;          ///< of its point, from the last vertex, w.r.t. solid angle; one if delta
+  float pdf;  ///< of its point, from the last vertex, w.r.t. solid angle; one if delta
   float pdf_direction;  ///< of the walk to hit that point [1/sr]; zero if delta
-  Vec3 to_light;      ///< unit
+  Vec3 to_light;        ///< unit
   float distance;
 };
 
 /// Densities of the last part of a path, up to a common factor: one for each technique that
 /// makes it. Their shares are the weights of the balance heuristic. They come from proxies,
-/// and are functions of the path's vertices and of the light points alone, so that the weights
-/// of a path sum to one whatever made it.
+/// and are functions of the path's vertices and of the light points alone, so that the
+/// weights of a path sum to one whatever made it.
 ///
-/// Where a dual connection can make a path, single connections and next event estimation leave
-/// it to that, and where a single connection can, next event estimation does: their densities
-/// are zero then. Each of them covers all that the next one does, with less variance; doing
-/// both costs rays that buy nothing.
+/// Where a dual connection can make a path, single connections and next event estimation
+/// leave it to that, and where a single connection can, next event estimation does: their
+/// densities are zero then. Each of them covers all that the next one does, with less
+/// variance; doing both costs rays that buy nothing.
 struct TailDensities {
   float direct = 0;  ///< a walk, then next event estimation
   float hit = 0;     ///< a walk that hits the light
@@ -41,8 +41,8 @@ struct TailDensities {
 /// The start of a leg at a vertex that stands at distance t of the leg before.
 LegStart start_of_leg(const Vertex& vertex, float t, float pdf_direction, bool is_specular);
 
-/// A path whose last vertex lies in a medium: `before` (leg to x), x, `leg` (from x), and the
-/// last vertex at distance t of `leg`.
+/// A path whose last vertex lies in a medium: `before` (leg to x), x, `leg` (from x), and
+/// the last vertex at distance t of `leg`.
 TailDensities tail_densities(const ConnectionContext& context, ConnectionLeg& before,
                              const LegStart& x, ConnectionLeg& leg, float t,
                              const LightEnd& end);
@@ -50,6 +50,7 @@ TailDensities tail_densities(const ConnectionContext& context, ConnectionLeg& be
 /// A path whose last vertex lies on a surface, `y`, at `distance` from x.
 TailDensities surface_tail_densities(const ConnectionContext& context,
                                      const ConnectionLeg& before, const LegStart& x,
-                                     const LegStart& y, float distance, const LightEnd& end);
+                                     const LegStart& y, float distance,
+                                     const LightEnd& end);
 
 }  // namespace tyndall

@@ -46,7 +46,9 @@ Rgb Vertex::albedo() const {
 
 Vec3 Vertex::normal() const { return hit_ ? hit_->point.ns : Vec3{}; }
 
-bool Vertex::can_be_lit() const { return hit_ && LitSurfaceSampling::finds(*hit_->surface); }
+bool Vertex::can_be_lit() const {
+  return hit_ && LitSurfaceSampling::finds(*hit_->surface);
+}
 
 Ray Vertex::spawn(Vec3 wi) const {
   return {hit_ ? offset_origin(p_, hit_->point.ng, wi) : p_, wi};

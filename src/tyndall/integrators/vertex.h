@@ -11,9 +11,9 @@ namespace tyndall {
 
 /// A direction drawn at a vertex.
 struct DirectionSample {
-  Vec3 wi;      ///< unit, points away from the vertex
-  Rgb value;    ///< phase function, or BSDF times cosine [1/sr]
-  float pdf;    ///< w.r.t. solid angle [1/sr]
+  Vec3 wi;    ///< unit, points away from the vertex
+  Rgb value;  ///< phase function, or BSDF times cosine [1/sr]
+  float pdf;  ///< w.r.t. solid angle [1/sr]
   bool is_specular;
   float eta;  ///< relative index of refraction crossed
 };
@@ -37,8 +37,8 @@ class Vertex {
   std::optional<DirectionSample> sample(Sampler& sampler) const;
   /// No connection can succeed.
   bool is_specular() const;
-  Rgb albedo() const;    ///< for the albedo layer
-  Vec3 normal() const;   ///< shading normal; zero in a medium
+  Rgb albedo() const;   ///< for the albedo layer
+  Vec3 normal() const;  ///< shading normal; zero in a medium
 
   /// A surface that can be found by rays out of lights.
   bool can_be_lit() const;

@@ -13,8 +13,8 @@ class PerspectiveCamera {
     Transform world_from_camera;
     float fov = 90;  ///< of the shorter side, or of the screen window's unit [degrees]
     float screen_min_x = -1, screen_max_x = 1, screen_min_y = -1, screen_max_y = 1;
-    float lens_radius = 0;         ///< zero: a pinhole [scene units]
-    float focal_distance = 1e6f;   ///< [scene units]
+    float lens_radius = 0;        ///< zero: a pinhole [scene units]
+    float focal_distance = 1e6f;  ///< [scene units]
   };
 
   PerspectiveCamera() : PerspectiveCamera(Settings{}, Vec2i{1, 1}) {}

@@ -26,7 +26,8 @@ int medium_seen(const Scene& scene, Ray ray, int stated) {
     const std::optional<SurfaceHit> hit = scene.intersect(ray, infinity);
     if (!hit) break;
     const MediumInterface& media = hit->surface->media;
-    if (media.is_stated) return dot(ray.d, hit->point.ng) < 0 ? media.outside : media.inside;
+    if (media.is_stated)
+      return dot(ray.d, hit->point.ng) < 0 ? media.outside : media.inside;
     ray.o = offset_origin(hit->point.p, hit->point.ng, ray.d);
   }
   return stated;
@@ -38,14 +39,14 @@ CameraMediumFinding find_camera_medium(const Scene& scene, int stated) {
   std::map<int, int> votes;
   for (int i = 0; i < direction_count; ++i)
     ++votes[medium_seen(scene, {scene.camera().position(), lattice_direction(i)}, stated)];
-  const auto winner = std::ranges::max_element(votes, {}, [](const auto& v) { return v.second; });
+  const auto winner =
+      std::ranges::max_element(votes, {}, [](const auto& v) { return v.second; });
   CameraMediumFinding finding{winner->first, ""};
   if (2 * winner->second < direction_count * 3 / 2)
-    finding.remark =
-        "surfaces around the camera disagree about the medium it is in (" +
-        std::to_string(direction_count - winner->second) + " of " +
-        std::to_string(direction_count) +
-        " directions): a boundary between media may be open or inside out";
+    finding.remark = "surfaces around the camera disagree about the medium it is in (" +
+                     std::to_string(direction_count - winner->second) + " of " +
+                     std::to_string(direction_count) +
+                     " directions): a boundary between media may be open or inside out";
   return finding;
 }
 

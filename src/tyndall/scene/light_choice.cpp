@@ -7,8 +7,8 @@
 namespace tyndall {
 namespace {
 
-// Share of the choice that looks at power alone. Importance knows no occlusion, no cones and no
-// emission profiles, so it may be wrong by much; this bounds the damage.
+// Share of the choice that looks at power alone. Importance knows no occlusion, no cones
+// and no emission profiles, so it may be wrong by much; this bounds the damage.
 constexpr float power_share = 0.1f;
 
 // Beyond this many lights, tables per place cost more than they save.
@@ -29,7 +29,8 @@ LightChoice::LightChoice(const std::vector<Light>& lights, const Bounds3& scene_
 }
 
 template <typename Importance>
-LightProbabilities LightChoice::build(float total_power, const Importance& importance) const {
+LightProbabilities LightChoice::build(float total_power,
+                                      const Importance& importance) const {
   LightProbabilities result;
   if (!(total_power > 0)) return result;
   auto& cdf = result.cdf_;
@@ -54,7 +55,8 @@ LightProbabilities LightChoice::build(float total_power, const Importance& impor
 
 LightProbabilities LightChoice::at_point(Vec3 p) const {
   return build(power_, [&](const Candidate& c) {
-    const float distance2 = c.is_infinite ? sqr(scene_radius_) : distance_squared(p, c.center);
+    const float distance2 =
+        c.is_infinite ? sqr(scene_radius_) : distance_squared(p, c.center);
     return c.power / std::max(distance2 + sqr(c.radius), 1e-20f);
   });
 }

@@ -32,10 +32,11 @@ class LightProbabilities {
 
 /// Chooses lights by what they may contribute.
 ///
-/// To a point: power over squared distance. To a segment, for light scattered along it: power
-/// times the integral of 1/distance^2, the angle that the segment subtends at the light over its
-/// distance from the line. Both are softened by the light's own extent and by a small share of
-/// choice by power alone, so that no light that can contribute is ever left out.
+/// To a point: power over squared distance. To a segment, for light scattered along it:
+/// power times the integral of 1/distance^2, the angle that the segment subtends at the
+/// light over its distance from the line. Both are softened by the light's own extent and
+/// by a small share of choice by power alone, so that no light that can contribute is ever
+/// left out.
 class LightChoice {
  public:
   LightChoice() = default;

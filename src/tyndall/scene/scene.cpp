@@ -104,8 +104,9 @@ class Scene::Impl {
     for (const std::vector<Surface>& object : description.objects)
       for (const Surface& surface : object)
         if (surface.emission)
-          remarks.push_back(surface.name +
-                            ": area lights inside objects are not supported: it emits nothing");
+          remarks.push_back(
+              surface.name +
+              ": area lights inside objects are not supported: it emits nothing");
   }
 
   void measure_power() {
@@ -120,7 +121,8 @@ class Scene::Impl {
 
 Scene::Scene(SceneDescription description)
     : impl_(std::make_unique<Impl>(std::move(description))) {
-  const CameraMediumFinding finding = find_camera_medium(*this, impl_->description.camera_medium);
+  const CameraMediumFinding finding =
+      find_camera_medium(*this, impl_->description.camera_medium);
   impl_->camera_medium = impl_->medium(finding.medium);
   if (!finding.remark.empty()) impl_->remarks.push_back(finding.remark);
 }
@@ -152,7 +154,8 @@ bool Scene::is_occluded(const Ray& ray, float t_max) const {
   return impl_->intersector.is_occluded(ray, t_max, RayMask::opaque);
 }
 
-const Medium* Scene::medium_across(const SurfaceHit& hit, Vec3 d, const Medium* current) const {
+const Medium* Scene::medium_across(const SurfaceHit& hit, Vec3 d,
+                                   const Medium* current) const {
   const MediumInterface& media = hit.surface->media;
   if (!media.is_stated || !media.is_transition()) return current;
   return impl_->medium(dot(d, hit.point.ng) > 0 ? media.outside : media.inside);

@@ -14,11 +14,11 @@ namespace tyndall {
 
 /// What a ray meets: a surface point with everything that stands there.
 struct SurfaceHit {
-  float t;                      ///< distance along the ray [scene units]
+  float t;  ///< distance along the ray [scene units]
   SurfacePoint point;
-  const Surface* surface;       ///< material, media, emission
-  const Light* light;           ///< the area light of the surface, or null
-  size_t light_index;           ///< of `light` in Scene::lights()
+  const Surface* surface;  ///< material, media, emission
+  const Light* light;      ///< the area light of the surface, or null
+  size_t light_index;      ///< of `light` in Scene::lights()
 };
 
 /// An immutable scene, ready to trace. Safe to use from all threads.
@@ -31,8 +31,8 @@ class Scene {
   Scene& operator=(const Scene&) = delete;
 
   const PerspectiveCamera& camera() const;
-  /// The medium that surrounds the camera, found by tracing to the nearest surfaces that state
-  /// their media; null in empty space.
+  /// The medium that surrounds the camera, found by tracing to the nearest surfaces that
+  /// state their media; null in empty space.
   const Medium* camera_medium() const;
   const std::vector<Light>& lights() const;
   Bounds3 bounds() const;
@@ -47,7 +47,8 @@ class Scene {
   bool is_occluded(const Ray& ray, float t_max) const;
   bool has_boundaries() const;
 
-  /// The medium behind a surface for a ray that crosses it towards `d`, coming from `current`.
+  /// The medium behind a surface for a ray that crosses it towards `d`, coming from
+  /// `current`.
   const Medium* medium_across(const SurfaceHit& hit, Vec3 d, const Medium* current) const;
 
   /// Draws a light in proportion to its power. Empty if there are none.
