@@ -141,31 +141,40 @@ AttributeEnd
                     "interior": self.mitsuba_medium(mi)}}
 
 
+def read_pfm(np, path):
+    """A color PFM file: (height, width, 3), row 0 on top."""
+    header, size, scale, data = path.read_bytes().split(b"\n", 3)
+    assert header == b"PF" and float(scale) < 0, path
+    width, height = map(int, size.split())
+    return np.frombuffer(data, "<f4").reshape(height, width, 3)[::-1]
+
+
 class Tyndall:
-    def __init__(self, program, comparison, folder, threads):
+    def __init__(self, program, comparison, folder, threads, clock):
         self.command = [program, "render", folder / f"{comparison.name}.pbrt", "--stats", "json",
-                        "--quiet", "-t", str(threads)]
-        self.output = folder / f"{comparison.name}.exr"
+                        "--quiet", "-t", str(threads), "--integrator", "volpath"]
+        self.clock = clock
+        self.output = folder / f"{comparison.name}.pfm"
         (folder / f"{comparison.name}.pbrt").write_text(comparison.pbrt())
 
     def render(self, mi, np, spp, seed):
         """The picture (height, width, 3) and the seconds that it took."""
         text = subprocess.run([*self.command, "--spp", str(spp), "--seed", str(seed), "-o",
                                self.output], check=True, capture_output=True, text=True).stdout
-        image = np.array(mi.Bitmap(str(self.output)).convert(mi.Bitmap.PixelFormat.RGB,
-                                                             mi.Struct.Type.Float32, False))
-        return image, json.loads(text)["seconds"]
+        image = read_pfm(np, self.output)
+        return image, json.loads(text)["seconds" if self.clock == "wall" else "cpu_seconds"]
 
 
 class Mitsuba:
-    def __init__(self, mi, comparison):
+    def __init__(self, mi, comparison, clock):
+        self.clock = time.perf_counter if clock == "wall" else time.process_time
         self.scene = mi.load_dict(comparison.mitsuba(mi))
 
     def render(self, mi, np, spp, seed):
-        start = time.perf_counter()
+        start = self.clock()
         image = np.array(mi.render(self.scene, spp=spp, seed=seed))
         # Mitsuba's world is right-handed, pbrt's left-handed: the picture is mirrored.
-        return image[:, ::-1, :3], time.perf_counter() - start
+        return image[:, ::-1, :3], self.clock() - start
 
 
 def tile_means(np, image):
@@ -196,8 +205,8 @@ def agreement(np, a, b):
 
 
 def compare(mi, np, comparison, arguments, folder):
-    ours = Tyndall(arguments.program, comparison, folder, arguments.threads)
-    theirs = Mitsuba(mi, comparison)
+    ours = Tyndall(arguments.program, comparison, folder, arguments.threads, arguments.clock)
+    theirs = Mitsuba(mi, comparison, arguments.clock)
     speeds, tiles = {"tyndall": [], "mitsuba": []}, {"tyndall": [], "mitsuba": []}
     for seed in range(arguments.rounds):
         for name, renderer in (("tyndall", ours), ("mitsuba", theirs)):
@@ -223,6 +232,8 @@ def parse_arguments():
     parser.add_argument("--spp", type=int, default=64)
     parser.add_argument("--size", type=int, default=128)
     parser.add_argument("--depth", type=int, default=8)
+    parser.add_argument("--clock", choices=("wall", "cpu"), default="wall",
+                        help="cpu: processor time of all threads, for a machine that is busy")
     parser.add_argument("--json", type=pathlib.Path, help="write the results here")
     return parser.parse_args()
 
@@ -250,7 +261,7 @@ def main():
                   "" if result["agrees"] else "DISAGREES", flush=True)
     if arguments.json:
         arguments.json.write_text(json.dumps(
-            {"mitsuba": mi.__version__, "threads": arguments.threads, "spp": arguments.spp,
+            {"mitsuba": mi.__version__, "threads": arguments.threads, "clock": arguments.clock, "spp": arguments.spp,
              "rounds": arguments.rounds, "results": results}, indent=2) + "\n")
     return 0 if all(r["agrees"] for r in results) else 1
 
