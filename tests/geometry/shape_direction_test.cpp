@@ -57,6 +57,14 @@ std::vector<Case> cases() {
        BilinearMesh({{-1, -1, 0}, {1, -1, 0}, {-1, 1, 0}, {1, 1, 0}}, {{0, 1, 2, 3}}, {},
                     {}, false),
        {0.9f, 0.4f, 0.3f}},
+      {"rectangle of triangles",
+       TriangleMesh({{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}},
+                    {{1, 2, 0}, {2, 3, 0}}, {}, {}, false),
+       {-0.8f, 0.2f, -0.4f}},
+      {"two triangles that are no rectangle",
+       TriangleMesh({{-1, -1, 0}, {1, -1, 0}, {1, 1, 0.5f}, {-1, 1, 0}},
+                    {{0, 1, 2}, {0, 2, 3}}, {}, {}, false),
+       {-0.8f, 0.2f, -0.4f}},
       {"trapezoid",
        BilinearMesh({{-1, -1, 0}, {1, -1, 0}, {-0.3f, 1, 0}, {0.4f, 1, 0}}, {{0, 1, 2, 3}},
                     {}, {}, false),
@@ -151,6 +159,31 @@ TEST(SampleDirection, AgreesWithItsDensity) {
       EXPECT_GT(welch_p_value(drawn.moments[i], weighted.moments[i]), level)
           << i << ": " << drawn.moments[i].mean() << " and " << weighted.moments[i].mean();
   }
+}
+
+// The solid angle by the formula for a rectangle seen from above its center, 4 asin of the
+// product of the sines of half the angles it fills.
+TEST(SampleDirection, FindsTheSolidAngleOfARectangle) {
+  for (const float distance : {0.01f, 0.3f, 1.0f, 10.0f, 100.0f}) {
+    const Shape patch = BilinearMesh({{-1, -2, 0}, {1, -2, 0}, {-1, 2, 0}, {1, 2, 0}},
+                                     {{0, 1, 2, 3}}, {}, {}, false);
+    const Shape triangles = TriangleMesh({{-1, -2, 0}, {1, -2, 0}, {1, 2, 0}, {-1, 2, 0}},
+                                         {{0, 1, 2}, {2, 3, 0}}, {}, {}, false);
+    const auto h = static_cast<double>(distance);
+    const double expected = 1 / (4 * std::asin(2 / std::sqrt((h * h + 1) * (h * h + 4))));
+    for (const Shape& shape : {patch, triangles}) {
+      const auto sample = sample_direction(shape, {0, 0, distance}, {0.3f, 0.6f});
+      ASSERT_TRUE(sample);
+      EXPECT_NEAR(static_cast<double>(sample->pdf), expected, 1e-5 * expected);
+    }
+  }
+}
+
+TEST(SampleDirection, IsEmptyInThePlaneOfARectangle) {
+  const Shape patch = BilinearMesh({{-1, -1, 0}, {1, -1, 0}, {-1, 1, 0}, {1, 1, 0}},
+                                   {{0, 1, 2, 3}}, {}, {}, false);
+  for (const Vec3 from : {Vec3{3, 0, 0}, Vec3{0.2f, 0.3f, 0}, Vec3{1, 1, 0}})
+    EXPECT_FALSE(sample_direction(patch, from, {0.5f, 0.5f}));
 }
 
 }  // namespace
