@@ -18,6 +18,13 @@ struct PhaseCase {
 
 void PrintTo(const PhaseCase& c, std::ostream* out) { *out << c.name; }
 
+// Values at equidistant cosines: with zeros at an end and in the middle, and a strong
+// slope.
+TabulatedPhase tabulated() {
+  constexpr float values[] = {0, 1, 3, 0, 0, 2, 8};
+  return TabulatedPhase(values);
+}
+
 const PhaseCase cases[] = {
     {"isotropic", IsotropicPhase{}},
     {"hg_back_0.9", HenyeyGreenstein(-0.9f), 0},
@@ -28,6 +35,10 @@ const PhaseCase cases[] = {
     {"hg_0.5", HenyeyGreenstein(0.5f)},
     {"hg_0.9", HenyeyGreenstein(0.9f), 8},
     {"hg_0.99", HenyeyGreenstein(0.99f), 14},
+    {"two_lobes", TwoLobePhase(HenyeyGreenstein(0.8f), HenyeyGreenstein(-0.3f), 0.7f), 4},
+    {"one_of_two_lobes", TwoLobePhase(HenyeyGreenstein(0.5f), HenyeyGreenstein(-0.3f), 1)},
+    {"rayleigh", RayleighPhase{}},
+    {"tabulated", tabulated()},
 };
 constexpr int case_count = static_cast<int>(std::size(cases));
 
@@ -78,7 +89,7 @@ TEST_P(PhaseFunctionTest, IsFiniteAtTheEndsOfTheUnitSquare) {
     for (const float y : {0.0f, one_minus_epsilon}) {
       const PhaseSample s = *phase.sample({0, 0, -1}, {x, y});
       EXPECT_TRUE(is_finite(s.wi));
-      EXPECT_GT(s.pdf, 0);
+      EXPECT_GE(s.pdf, 0);
       EXPECT_TRUE(std::isfinite(s.pdf));
     }
 }
@@ -90,6 +101,21 @@ TEST(HenyeyGreensteinTest, MatchesHandComputedValues) {
   EXPECT_NEAR(phase.eval(wo, {0, 0, -1}), 6.0f * inv_4pi, 1e-5);
   EXPECT_NEAR(phase.eval(wo, {0, 0, 1}), 0.75f / 3.375f * inv_4pi, 1e-6);
   EXPECT_NEAR(phase.eval(wo, {1, 0, 0}), 0.75f / 1.3975424f * inv_4pi, 1e-6);
+}
+
+TEST(RayleighPhaseTest, MatchesHandComputedValues) {
+  const RayleighPhase phase;
+  EXPECT_FLOAT_EQ(phase.eval({0, 0, 1}, {0, 0, 1}), 1.5f * inv_4pi);
+  EXPECT_FLOAT_EQ(phase.eval({0, 0, 1}, {1, 0, 0}), 0.75f * inv_4pi);
+}
+
+// A straight line from zero (back) to its maximum (on): p = (1 + cos) / (4 pi), mean 1/3.
+TEST(TabulatedPhaseTest, MatchesHandComputedValues) {
+  constexpr float values[] = {0, 7};
+  const TabulatedPhase phase(values);
+  EXPECT_FLOAT_EQ(phase.eval({0, 0, 1}, {0, 0, -1}), 2 * inv_4pi);
+  EXPECT_FLOAT_EQ(phase.eval({0, 0, 1}, {1, 0, 0}), inv_4pi);
+  EXPECT_FLOAT_EQ(phase.mean_cosine(), 1.0f / 3);
 }
 
 }  // namespace

@@ -14,9 +14,9 @@ GridMedium::GridMedium(const PlacedGrid& density, const Transform& world_from_me
       properties_(properties),
       sigma_t_(properties.sigma_t()),
       phase_(std::move(phase)) {
-  const Transform world_from_grid = world_from_medium * density.medium_from_grid;
-  space_ = GridSpace(world_from_grid.inverse());
-  if (!box_.is_empty()) world_bounds_ = world_from_grid.bounds(box_);
+  world_from_grid_ = world_from_medium * density.medium_from_grid;
+  space_ = GridSpace(world_from_grid_.inverse());
+  if (!box_.is_empty()) world_bounds_ = world_from_grid_.bounds(box_);
   if (!emission.is_constant())
     emission_ = std::make_shared<EmissionLookup>(emission, world_from_medium);
 }

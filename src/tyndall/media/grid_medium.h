@@ -85,6 +85,9 @@ class GridMedium {
   const PhaseFunction& phase() const { return phase_; }
   /// Of the box; empty if the medium is.
   Bounds3 world_bounds() const { return world_bounds_; }
+  /// Where the medium is, in the space of its samples; empty if it is nowhere.
+  const Bounds3& grid_box() const { return box_; }
+  const Transform& world_from_grid() const { return world_from_grid_; }
 
  private:
   float density(Vec3 p_grid) const {
@@ -99,6 +102,7 @@ class GridMedium {
   std::shared_ptr<const BrickGrid> density_;
   std::shared_ptr<const MajorantGrid> majorants_;
   std::shared_ptr<const EmissionLookup> emission_;  // null if constant
+  Transform world_from_grid_;
   GridSpace space_;
   Bounds3 box_;  // in grid space
   Bounds3 world_bounds_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <optional>
@@ -9,15 +10,10 @@
 #include "tyndall/math/constants.h"
 #include "tyndall/math/frame.h"
 #include "tyndall/math/vec.h"
+#include "tyndall/media/phase_sample.h"
+#include "tyndall/media/tabulated_phase.h"
 
 namespace tyndall {
-
-/// A direction drawn from a phase function.
-struct PhaseSample {
-  Vec3 wi;      ///< unit, points away from the scattering point
-  float value;  ///< p(wo, wi) [1/sr]
-  float pdf;    ///< density of wi w.r.t. solid angle [1/sr]
-};
 
 /// Scatters into all directions alike.
 class IsotropicPhase {
@@ -75,9 +71,57 @@ class HenyeyGreenstein {
   float g_;
 };
 
+/// A mixture of two Henyey-Greenstein lobes, usually one forward and one backward.
+class TwoLobePhase {
+ public:
+  /// Precondition: 0 <= share <= 1, the share of `first` in the scattered light.
+  TwoLobePhase(HenyeyGreenstein first, HenyeyGreenstein second, float share)
+      : first_(first), second_(second), share_(share) {
+    assert(0 <= share && share <= 1);
+  }
+
+  float eval(Vec3 wo, Vec3 wi) const {
+    return share_ * first_.eval(wo, wi) + (1 - share_) * second_.eval(wo, wi);
+  }
+  float pdf(Vec3 wo, Vec3 wi) const { return eval(wo, wi); }
+  std::optional<PhaseSample> sample(Vec3 wo, Vec2 u) const {
+    const bool is_first = u.x < share_;
+    const float x = is_first ? u.x / share_ : (u.x - share_) / (1 - share_);
+    const Vec2 rest{std::min(x, one_minus_epsilon), u.y};
+    const Vec3 wi = is_first ? first_.sample(wo, rest)->wi : second_.sample(wo, rest)->wi;
+    const float p = eval(wo, wi);
+    return PhaseSample{.wi = wi, .value = p, .pdf = p};
+  }
+  float mean_cosine() const {
+    return share_ * first_.mean_cosine() + (1 - share_) * second_.mean_cosine();
+  }
+
+ private:
+  HenyeyGreenstein first_, second_;
+  float share_;
+};
+
+/// Scattering by particles much smaller than the wavelength: proportional to 1 + cos^2.
+class RayleighPhase {
+ public:
+  float eval(Vec3 wo, Vec3 wi) const { return 0.75f * inv_4pi * (1 + sqr(dot(wo, wi))); }
+  float pdf(Vec3 wo, Vec3 wi) const { return eval(wo, wi); }
+  std::optional<PhaseSample> sample(Vec3 wo, Vec2 u) const {
+    // The CDF (cos^3 + 3 cos + 4) / 8 = u is a cubic with one real root [Frisvad11].
+    const float q = 4 * u.x - 2;
+    const float a = std::cbrt(q + std::sqrt(sqr(q) + 1));
+    const Vec3 local = spherical_direction(a - 1 / a, 2 * pi * u.y);
+    const Vec3 wi = Frame::from_z(-wo).to_world(local);
+    const float p = eval(wo, wi);
+    return PhaseSample{.wi = wi, .value = p, .pdf = p};
+  }
+  float mean_cosine() const { return 0; }
+};
+
 /// The closed set of phase functions. Adding one means: the class, this line, and a row in
 /// the chi-square test.
-using PhaseFunctionVariant = std::variant<IsotropicPhase, HenyeyGreenstein>;
+using PhaseFunctionVariant = std::variant<IsotropicPhase, HenyeyGreenstein, TwoLobePhase,
+                                          RayleighPhase, TabulatedPhase>;
 
 /// Any phase function, by value; cheap to copy.
 class PhaseFunction {

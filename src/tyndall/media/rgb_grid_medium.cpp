@@ -53,10 +53,10 @@ RgbGridMedium::RgbGridMedium(const Grids& grids, const Bounds3& bounds,
   // Only for its transform and box: where the samples lie is the same for all of them.
   const DensityGrid ones{given.resolution, std::vector<float>(given.values.size(), 1)};
   const PlacedGrid placed = place_in_box(ones, bounds);
-  const Transform world_from_grid = world_from_medium * placed.medium_from_grid;
-  space_ = GridSpace(world_from_grid.inverse());
+  world_from_grid_ = world_from_medium * placed.medium_from_grid;
+  space_ = GridSpace(world_from_grid_.inverse());
   box_ = placed.box;
-  if (!box_.is_empty()) world_bounds_ = world_from_grid.bounds(box_);
+  if (!box_.is_empty()) world_bounds_ = world_from_grid_.bounds(box_);
 }
 
 }  // namespace tyndall

@@ -91,6 +91,9 @@ class RgbGridMedium {
   bool is_grey() const { return false; }
   const PhaseFunction& phase() const { return phase_; }
   Bounds3 world_bounds() const { return world_bounds_; }
+  /// Where the medium is, in the space of its samples; empty if it is nowhere.
+  const Bounds3& grid_box() const { return box_; }
+  const Transform& world_from_grid() const { return world_from_grid_; }
 
  private:
   struct Majorants {
@@ -122,6 +125,7 @@ class RgbGridMedium {
   std::shared_ptr<const Field> sigma_t_, sigma_s_;
   std::shared_ptr<const Field> Le_;  // null if dark
   std::shared_ptr<const Majorants> majorants_;
+  Transform world_from_grid_;
   GridSpace space_;
   Bounds3 box_;  // in grid space
   Bounds3 world_bounds_;
