@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <set>
 #include <vector>
 
@@ -16,6 +18,8 @@ namespace tyndall::app {
 namespace {
 
 using Row = std::vector<std::string>;
+
+constexpr double not_measured = std::numeric_limits<double>::quiet_NaN();
 
 std::string row_html(const Row& cells, const char* tag) {
   std::string html = "<tr>";
@@ -33,7 +37,8 @@ std::string table_html(const Row& head, const std::vector<Row>& rows) {
 }
 
 std::string mean_of(const Method& method, double (*value)(const Run&)) {
-  return short_number(spread_over_runs(method.runs, value).mean);
+  const double mean = spread_over_runs(method.runs, value).mean;
+  return std::isnan(mean) ? "-" : short_number(mean);
 }
 
 std::string mean_and_deviation(const Method& method, double (*value)(const Run&)) {
@@ -64,8 +69,10 @@ Row error_row(const Method& method) {
           mean_of(method, [](const Run& r) { return r.errors.mse; }),
           mean_of(method, [](const Run& r) { return r.errors.smape; }),
           mean_of(method, [](const Run& r) { return r.errors.psnr; }),
-          mean_of(method, [](const Run& r) { return r.errors.ldr_flip.value_or(0); }),
-          mean_of(method, [](const Run& r) { return r.errors.hdr_flip.value_or(0); }),
+          mean_of(method,
+                  [](const Run& r) { return r.errors.ldr_flip.value_or(not_measured); }),
+          mean_of(method,
+                  [](const Run& r) { return r.errors.hdr_flip.value_or(not_measured); }),
           mean_of(method, [](const Run& r) { return r.errors.percentile_99_9; }),
           bias_text(method)};
 }
