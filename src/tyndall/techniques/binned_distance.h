@@ -31,7 +31,7 @@ class BinnedDistance {
  public:
   /// The weight of a bin is the mean of its K / Bins weights: several taps keep a bin that is
   /// lit in part from being taken for dark. Weights that are negative or no numbers count as
-  /// zero; if all are zero, the base technique remains. The share `floor` in (0, 1] of the
+  /// zero; if all together are less than 1e-30, the base technique remains. The share `floor` in (0, 1] of the
   /// samples is spread as the base technique would.
   template <int K>
   BinnedDistance(const Base& base, const DistanceWeights<K>& weights, float floor)
@@ -56,7 +56,9 @@ class BinnedDistance {
     const float width = cdf_[i + 1] - cdf_[i];
     const float x = std::clamp((u - cdf_[i]) / width, 0.0f, 1.0f);
     auto sample = base_.sample(std::min((static_cast<float>(i) + x) / Bins, one_minus_epsilon));
-    if (sample) sample->pdf_t *= Bins * width;
+    if (!sample) return std::nullopt;
+    sample->pdf_t = density_or_zero(sample->pdf_t * Bins * width);
+    if (!(sample->pdf_t > 0)) return std::nullopt;
     return sample;
   }
 
@@ -79,7 +81,7 @@ class BinnedDistance {
 
  private:
   static int bin(float u) {
-    return std::clamp(static_cast<int>(u * Bins), 0, Bins - 1);
+    return u > 0 ? std::min(static_cast<int>(std::min(u, 1.0f) * Bins), Bins - 1) : 0;
   }
 
   void accumulate(const std::array<float, Bins>& bin, float floor) {
@@ -92,7 +94,7 @@ class BinnedDistance {
       total += pair;
       cdf_[i + 2] = total;
     }
-    const bool is_dark = !(total > 0 && total < infinity);
+    const bool is_dark = !(total > 1e-30f && total < infinity);
     const float scale = is_dark ? 0 : (1 - floor) / total;
     const float share = (is_dark ? 1 : floor) / Bins;
     for (int i = 1; i < Bins; ++i) cdf_[i] = scale * cdf_[i] + share * static_cast<float>(i);

@@ -89,8 +89,8 @@ float DoubleScatteringDirection::azimuth_ratio(const Polar& p) const {
 LinearRows::Blend DoubleScatteringDirection::azimuth(float e) const {
   const LinearRows& table = tables_->azimuth();
   const int last = table.rows() - 1;
-  const float position = std::sqrt(e) * static_cast<float>(last);
-  const int row = std::clamp(static_cast<int>(position), 0, last - 1);
+  const float position = e > 0 ? std::sqrt(std::min(e, 1.0f)) * static_cast<float>(last) : 0;
+  const int row = std::min(static_cast<int>(position), last - 1);
   const auto i = static_cast<float>(row);
   // Between e = (i / last)^2 and ((i + 1) / last)^2.
   const float weight = (position - i) * (position + i) / (2 * i + 1);

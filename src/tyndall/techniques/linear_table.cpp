@@ -40,8 +40,8 @@ LinearTable::LinearTable(std::span<const float> values, float x_min, float x_max
 
 /// The cell in which the integral from node 0 has the given value.
 int LinearTable::cell_at(double integral) const {
-  const double position = integral * guides_per_mass_;
-  const int guide = std::clamp(static_cast<int>(position), 0, cells_ - 1);
+  const double position = std::clamp(integral * guides_per_mass_, 0.0, cells_ - 1.0);
+  const int guide = static_cast<int>(position);
   int low = guide_[static_cast<size_t>(guide)];
   int count = guide_[static_cast<size_t>(guide) + 1] - low;
   while (count > 0) {
@@ -54,7 +54,8 @@ int LinearTable::cell_at(double integral) const {
 }
 
 LinearTable::Cursor LinearTable::cursor(float x, bool is_reversed) const {
-  return {this, (is_reversed ? x_max_ - x : x - x_min_) * cells_per_x_, is_reversed};
+  const float position = (is_reversed ? x_max_ - x : x - x_min_) * cells_per_x_;
+  return {this, position == position ? position : 0, is_reversed};
 }
 
 float LinearTable::Cursor::value(float delta) const {
@@ -66,6 +67,7 @@ float LinearTable::Cursor::value(float delta) const {
 }
 
 float LinearTable::Cursor::integral(float delta) const {
+  if (!(delta >= 0)) return 0;
   const int cells = table_->cells_;
   float rest = delta * table_->cells_per_x_, mass = 0, x = position_;
   if (!(x >= 0)) {
@@ -97,6 +99,7 @@ float LinearTable::Cursor::integral(float delta) const {
 }
 
 float LinearTable::Cursor::invert(float mass) const {
+  if (!(mass >= 0)) return 0;
   const int cells = table_->cells_;
   float rest = mass * table_->cells_per_x_, way = 0, x = position_;
   if (!(x >= 0)) {

@@ -82,10 +82,16 @@ class PointNormalSampling {
     if (!segment_.is_proper() || !(segment_.h() > 0)) return;
     // The normal's part in the plane of ray and pivot: towards the foot, and along s.
     const float along = dot(lit.n, lit.ray.d);
-    const Vec3 near = lit.ray.at(segment_.is_forward() ? lit.t_min : lit.t_max) - lit.pivot;
-    const float s_sign = segment_.is_forward() ? 1.0f : -1.0f;
-    const Vec3 foot = near - lit.ray.d * (s_sign * segment_.s_near());
-    const float across = dot(lit.n, foot) / segment_.h();
+    const float s_sign = segment_.sign();
+    // In double: the foot's height above the light is a small difference for a far ray.
+    const auto dot64 = [](Vec3 a, double x, double y, double z) {
+      return a.x * x + a.y * y + a.z * z;
+    };
+    const Vec3 o = lit.ray.o, d = lit.ray.d, p = lit.pivot;
+    const double x = double(p.x) - o.x, y = double(p.y) - o.y, z = double(p.z) - o.z;
+    const double foot_height = dot64(lit.n, d.x, d.y, d.z) * dot64(d, x, y, z) -
+                               dot64(lit.n, x, y, z);
+    const auto across = static_cast<float>(foot_height / segment_.h());
     const float in_plane = std::sqrt(across * across + along * along);
     if (!(in_plane > 0 && in_plane < infinity)) return;
     normal_h_ = across / in_plane;
