@@ -27,7 +27,8 @@ const std::vector<Query>& queries() {
   static const std::vector<Query> all = [] {
     RandomStream random(1);
     const auto point = [&](float size) {
-      return Vec3{random.next_1d() - 0.5f, random.next_1d() - 0.5f, random.next_1d() - 0.5f} *
+      return Vec3{random.next_1d() - 0.5f, random.next_1d() - 0.5f,
+                  random.next_1d() - 0.5f} *
              size;
     };
     std::vector<Query> result(4096);
@@ -54,8 +55,8 @@ void run(benchmark::State& state, const F& f) {
   state.SetItemsProcessed(state.iterations());
 }
 
-/// A technique built and sampled, with the density of the sample; and built and asked for the
-/// density elsewhere.
+/// A technique built and sampled, with the density of the sample; and built and asked for
+/// the density elsewhere.
 template <typename Make>
 void run_distance(benchmark::State& state, const Make& make) {
   if (state.range(0) == 0) {
@@ -74,8 +75,9 @@ const ScatteringTables& tables(int64_t g_percent) {
 }
 
 void BM_Equiangular(benchmark::State& state) {
-  run_distance(state,
-               [](const Query& q) { return EquiangularSampling(q.ray, q.pivot, 0, q.t_max); });
+  run_distance(state, [](const Query& q) {
+    return EquiangularSampling(q.ray, q.pivot, 0, q.t_max);
+  });
 }
 BENCHMARK(BM_Equiangular)->ArgName("pdf")->Arg(0)->Arg(1);
 
@@ -87,7 +89,8 @@ void BM_PointNormal(benchmark::State& state) {
 BENCHMARK(BM_PointNormal)->ArgName("pdf")->Arg(0)->Arg(1);
 
 void BM_Exponential(benchmark::State& state) {
-  run_distance(state, [](const Query& q) { return ExponentialDistance(q.u[1], 0, q.t_max); });
+  run_distance(state,
+               [](const Query& q) { return ExponentialDistance(q.u[1], 0, q.t_max); });
 }
 BENCHMARK(BM_Exponential)->ArgName("pdf")->Arg(0)->Arg(1);
 
@@ -121,14 +124,17 @@ void BM_DoubleScatteringDirection(benchmark::State& state) {
     run(state, [&](const Query& q) { return make(q).pdf(q.ray.d); });
   }
 }
-BENCHMARK(BM_DoubleScatteringDirection)->ArgNames({"pdf", "g"})->ArgsProduct({{0, 1}, {0, 75}});
+BENCHMARK(BM_DoubleScatteringDirection)
+    ->ArgNames({"pdf", "g"})
+    ->ArgsProduct({{0, 1}, {0, 75}});
 
-/// Two vertices from a ray to a light, all densities included, rays not: what an integrator pays
-/// for a three-connection besides tracing.
+/// Two vertices from a ray to a light, all densities included, rays not: what an integrator
+/// pays for a three-connection besides tracing.
 void BM_ThreeConnection(benchmark::State& state) {
   const ScatteringTables& table = tables(state.range(0));
   run(state, [&](const Query& q) {
-    const auto t = DoubleScatteringDistance(table, q.ray, q.pivot, 0, q.t_max).sample(q.u[0]);
+    const auto t =
+        DoubleScatteringDistance(table, q.ray, q.pivot, 0, q.t_max).sample(q.u[0]);
     if (!t) return 0.0f;
     const Vec3 b = q.ray.at(t->t);
     const auto w =

@@ -27,8 +27,8 @@ double arc(double g, double alpha) {
 }
 
 double azimuth_arc(double g, double alpha, double theta, double phi) {
-  // 1 + g^2 - 2 g cos = a - b cos phi, which is proportional to 1 + f^2 - 2 f cos phi for some
-  // f: an arc again, of another asymmetry and scale.
+  // 1 + g^2 - 2 g cos = a - b cos phi, which is proportional to 1 + f^2 - 2 f cos phi for
+  // some f: an arc again, of another asymmetry and scale.
   const double a = 1 + g * g - 2 * g * std::cos(alpha) * std::cos(theta);
   const double b = 2 * g * std::sin(alpha) * std::sin(theta);
   const double f = b / (a + std::sqrt(a * a - b * b));

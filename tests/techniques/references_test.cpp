@@ -36,8 +36,8 @@ TEST(References, AzimuthArcIsTheIntegralOfThePhaseFunction) {
 
 TEST(References, ScatteredTwiceIsClosedInIsotropicMedia) {
   for (const double alpha : {0.0, 1.0, 3.0})
-    EXPECT_NEAR(scattered_twice(1e-9, alpha, M_PI), std::pow(M_PI, 3) / std::pow(4 * M_PI, 2),
-                1e-6);
+    EXPECT_NEAR(scattered_twice(1e-9, alpha, M_PI),
+                std::pow(M_PI, 3) / std::pow(4 * M_PI, 2), 1e-6);
 }
 
 }  // namespace

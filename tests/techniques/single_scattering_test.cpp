@@ -97,8 +97,8 @@ TEST_P(SingleScatteringTest, SamplesFollowTheirPdf) {
   expect_inverse_jacobian(technique, 2e-3);
 }
 
-// A sign error that sample() and pdf_t() share would show here: forward scattering lights the
-// stretch before the foot.
+// A sign error that sample() and pdf_t() share would show here: forward scattering lights
+// the stretch before the foot.
 TEST_P(SingleScatteringTest, MeanPositionIsThatOfTheIntegrand) {
   const double g = GetParam();
   const Geometry geometry{"beside", 1, 2, 0, 5};

@@ -29,7 +29,9 @@ struct Geometry {
   double alpha(double t) const { return std::atan2(double(h), -s(t)); }
 };
 
-inline std::ostream& operator<<(std::ostream& out, const Geometry& g) { return out << g.name; }
+inline std::ostream& operator<<(std::ostream& out, const Geometry& g) {
+  return out << g.name;
+}
 
 /// Pivots beside, before and behind the stretch, near and far.
 inline std::vector<Geometry> geometries() {
@@ -58,7 +60,8 @@ inline double ulp(double x) {
   return std::nextafter(f, infinity) - f;
 }
 
-/// How far a density per length may move because positions along the ray are floats: relative.
+/// How far a density per length may move because positions along the ray are floats:
+/// relative.
 inline double position_error(const Geometry& geometry, double t) {
   const double error = ulp(t) + ulp(geometry.s(t)) + ulp(geometry.s(geometry.t_min)) +
                        (geometry.t_max < infinity ? ulp(geometry.s(geometry.t_max)) : 0);
@@ -79,7 +82,8 @@ std::vector<float> distances(const Geometry& geometry, const Technique& techniqu
 }
 
 /// sample(), pdf_t() and invert() are those of the density and distribution function `cdf`,
-/// which are given in double; `tolerance` is relative for the one and absolute for the other.
+/// which are given in double; `tolerance` is relative for the one and absolute for the
+/// other.
 template <typename Technique, typename Pdf, typename Cdf>
 void expect_follows(const Geometry& geometry, const Technique& technique, const Pdf& pdf,
                     const Cdf& cdf, double tolerance) {
@@ -87,7 +91,8 @@ void expect_follows(const Geometry& geometry, const Technique& technique, const 
     const double expected = pdf(t);
     EXPECT_NEAR(technique.pdf_t(t) / expected, 1, tolerance + position_error(geometry, t))
         << "t = " << t;
-    EXPECT_NEAR(technique.invert(t), cdf(t), tolerance + expected * ulp(t) * 8) << "t = " << t;
+    EXPECT_NEAR(technique.invert(t), cdf(t), tolerance + expected * ulp(t) * 8)
+        << "t = " << t;
   }
 }
 
@@ -100,7 +105,8 @@ void expect_round_trip(const Technique& technique, double tolerance) {
     const auto sample = technique.sample(u);
     ASSERT_TRUE(sample.has_value()) << u;
     EXPECT_FLOAT_EQ(sample->pdf_t, technique.pdf_t(sample->t)) << u;
-    EXPECT_NEAR(technique.invert(sample->t), u, tolerance + 8 * ulp(sample->t) * sample->pdf_t)
+    EXPECT_NEAR(technique.invert(sample->t), u,
+                tolerance + 8 * ulp(sample->t) * sample->pdf_t)
         << "t = " << sample->t;
   }
 }
@@ -114,10 +120,12 @@ void expect_inverse_jacobian(const Technique& technique, double tolerance) {
     const auto middle = technique.sample(u);
     const auto high = technique.sample(static_cast<float>(u + step));
     if (!low || !middle || !high) continue;
-    // Simpson's rule for the mean density between the two, so that curvature does not count.
+    // Simpson's rule for the mean density between the two, so that curvature does not
+    // count.
     const float center = 0.5f * (low->t + high->t);
     const double mean =
-        (technique.pdf_t(low->t) + 4 * technique.pdf_t(center) + technique.pdf_t(high->t)) / 6;
+        (technique.pdf_t(low->t) + 4 * technique.pdf_t(center) + technique.pdf_t(high->t)) /
+        6;
     EXPECT_NEAR(mean * (high->t - low->t) / (2 * step), 1, tolerance) << "u = " << u;
   }
 }

@@ -19,20 +19,20 @@ concept DistanceTechnique = requires(const T& technique, float x) {
   { technique.invert(x) } -> std::same_as<float>;
 };
 
-/// A distance technique multiplied by what it leaves out: its uniform number is cut into bins,
-/// and each bin is chosen in proportion to a weight, for example the transmittance, the phase
-/// function and the predicted visibility there. The density is that of the base technique times
-/// a piecewise constant, so that weights may be as wrong as they like: they cost variance, never
-/// bias, and with a floor of f at most a factor of 1 / f of it.
+/// A distance technique multiplied by what it leaves out: its uniform number is cut into
+/// bins, and each bin is chosen in proportion to a weight, for example the transmittance,
+/// the phase function and the predicted visibility there. The density is that of the base
+/// technique times a piecewise constant, so that weights may be as wrong as they like: they
+/// cost variance, never bias, and with a floor of f at most a factor of 1 / f of it.
 ///
 /// A value without allocations, built once per ray and pivot.
 template <DistanceTechnique Base, int Bins>
 class BinnedDistance {
  public:
-  /// The weight of a bin is the mean of its K / Bins weights: several taps keep a bin that is
-  /// lit in part from being taken for dark. Weights that are negative or no numbers count as
-  /// zero; if all together are less than 1e-30, the base technique remains. The share `floor` in (0, 1] of the
-  /// samples is spread as the base technique would.
+  /// The weight of a bin is the mean of its K / Bins weights: several taps keep a bin that
+  /// is lit in part from being taken for dark. Weights that are negative or no numbers
+  /// count as zero; if all together are less than 1e-30, the base technique remains. The
+  /// share `floor` in (0, 1] of the samples is spread as the base technique would.
   template <int K>
   BinnedDistance(const Base& base, const DistanceWeights<K>& weights, float floor)
       : base_(base) {
@@ -55,7 +55,8 @@ class BinnedDistance {
     for (int j = 1; j < Bins; ++j) i += u >= cdf_[j] ? 1 : 0;
     const float width = cdf_[i + 1] - cdf_[i];
     const float x = std::clamp((u - cdf_[i]) / width, 0.0f, 1.0f);
-    auto sample = base_.sample(std::min((static_cast<float>(i) + x) / Bins, one_minus_epsilon));
+    auto sample =
+        base_.sample(std::min((static_cast<float>(i) + x) / Bins, one_minus_epsilon));
     if (!sample) return std::nullopt;
     sample->pdf_t = density_or_zero(sample->pdf_t * Bins * width);
     if (!(sample->pdf_t > 0)) return std::nullopt;
@@ -97,7 +98,8 @@ class BinnedDistance {
     const bool is_dark = !(total > 1e-30f && total < infinity);
     const float scale = is_dark ? 0 : (1 - floor) / total;
     const float share = (is_dark ? 1 : floor) / Bins;
-    for (int i = 1; i < Bins; ++i) cdf_[i] = scale * cdf_[i] + share * static_cast<float>(i);
+    for (int i = 1; i < Bins; ++i)
+      cdf_[i] = scale * cdf_[i] + share * static_cast<float>(i);
     cdf_[Bins] = 1;
   }
 

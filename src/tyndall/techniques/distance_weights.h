@@ -10,7 +10,8 @@
 namespace tyndall {
 
 /// What a distance technique leaves out of an integrand, at its taps: the argument of
-/// BinnedDistance. Any further factor, such as predicted visibility, is multiplied in by hand.
+/// BinnedDistance. Any further factor, such as predicted visibility, is multiplied in by
+/// hand.
 template <int K>
 struct DistanceWeights {
   alignas(32) std::array<float, K> values;
@@ -34,7 +35,8 @@ struct DistanceWeights {
     return *this;
   }
 
-  /// The Henyey-Greenstein phase function of light from the pivot into the ray, up to a factor.
+  /// The Henyey-Greenstein phase function of light from the pivot into the ray, up to a
+  /// factor.
   DistanceWeights& multiply_phase(const DistanceTaps<K>& taps, float g) {
     if (g == 0) return *this;
     const float a = 1 + g * g, b = 2 * g, floor = (1 - std::abs(g)) * (1 - std::abs(g));

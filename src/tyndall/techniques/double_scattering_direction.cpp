@@ -74,8 +74,9 @@ LinearRows::Blend DoubleScatteringDirection::half(bool is_above) const {
   return tables_->theta().blend(2 * row_ + (is_above ? 1 : 0), 2, row_weight_);
 }
 
-/// tan(phi / 2) at which half of the azimuth's mass lies inside, up to the table's weighting:
-/// sqrt((1 - k) / (1 + k)) of the phase function (1 - k cos phi)^(-3/2) at this theta.
+/// tan(phi / 2) at which half of the azimuth's mass lies inside, up to the table's
+/// weighting: sqrt((1 - k) / (1 + k)) of the phase function (1 - k cos phi)^(-3/2) at this
+/// theta.
 float DoubleScatteringDirection::azimuth_ratio(const Polar& p) const {
   if (is_any_direction_) return 1;
   const float g = std::abs(tables_->g());
@@ -89,7 +90,8 @@ float DoubleScatteringDirection::azimuth_ratio(const Polar& p) const {
 LinearRows::Blend DoubleScatteringDirection::azimuth(float e) const {
   const LinearRows& table = tables_->azimuth();
   const int last = table.rows() - 1;
-  const float position = e > 0 ? std::sqrt(std::min(e, 1.0f)) * static_cast<float>(last) : 0;
+  const float position =
+      e > 0 ? std::sqrt(std::min(e, 1.0f)) * static_cast<float>(last) : 0;
   const int row = std::min(static_cast<int>(position), last - 1);
   const auto i = static_cast<float>(row);
   // Between e = (i / last)^2 and ((i + 1) / last)^2.
@@ -115,7 +117,8 @@ std::optional<DoubleDirectionSample> DoubleScatteringDirection::sample_isotropic
   return DoubleDirectionSample{.w = w, .pdf = density};
 }
 
-std::optional<DoubleDirectionSample> DoubleScatteringDirection::sample_tables(Vec2 u) const {
+std::optional<DoubleDirectionSample> DoubleScatteringDirection::sample_tables(
+    Vec2 u) const {
   const float below = is_any_direction_ ? 0 : half(false).mass();
   const bool is_above = u.x >= below;
   const ThetaWarp warp{y_alpha_, is_above};

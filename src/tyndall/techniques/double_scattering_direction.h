@@ -9,19 +9,19 @@
 
 namespace tyndall {
 
-/// Draws the direction from the first of two scattering vertices, at `b`, to the second, with
-/// density proportional to the light of a point source at `pivot` that is scattered somewhere
-/// along that direction towards b, and by b along the given ray, without transmittance and
-/// visibility [Georgiev13]: rho(w_ab . w) P(theta) / sin(theta), theta the angle from the pivot.
-/// The density is infinite towards the pivot, as the light is.
+/// Draws the direction from the first of two scattering vertices, at `b`, to the second,
+/// with density proportional to the light of a point source at `pivot` that is scattered
+/// somewhere along that direction towards b, and by b along the given ray, without
+/// transmittance and visibility [Georgiev13]: rho(w_ab . w) P(theta) / sin(theta), theta
+/// the angle from the pivot. The density is infinite towards the pivot, as the light is.
 ///
 /// A value, built once per vertex and pivot; `tables` must outlive it.
 class DoubleScatteringDirection {
  public:
   /// `w_ab` is the unit direction in which the ray reached b; rho peaks there if g > 0.
   DoubleScatteringDirection(const ScatteringTables& tables, Vec3 b, Vec3 w_ab, Vec3 pivot);
-  /// Without the phase function at b, for first vertices that are not in a medium or scatter
-  /// otherwise: P(theta) / sin(theta) only.
+  /// Without the phase function at b, for first vertices that are not in a medium or
+  /// scatter otherwise: P(theta) / sin(theta) only.
   DoubleScatteringDirection(const ScatteringTables& tables, Vec3 b, Vec3 pivot);
 
   /// Empty if b is the pivot, or in the direction of infinite density.
@@ -49,8 +49,8 @@ class DoubleScatteringDirection {
   float azimuth_slope(const Polar& polar, float e) const;
 
   const ScatteringTables* tables_;
-  double x_ = 0, y_ = 0, z_ = 1;  // unit vector to the pivot
-  Frame frame_{};         // z to the pivot, x in the half-plane of w_ab
+  double x_ = 0, y_ = 0, z_ = 1;       // unit vector to the pivot
+  Frame frame_{};                      // z to the pivot, x in the half-plane of w_ab
   float sin_half_ = 0, cos_half_ = 1;  // of alpha, the angle between w_ab and z
   float y_alpha_ = 0;
   int row_ = 0;           // of alpha, rounded down

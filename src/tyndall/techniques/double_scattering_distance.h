@@ -12,14 +12,14 @@
 
 namespace tyndall {
 
-/// Draws the first of two scattering vertices on a ray, with density proportional to the light
-/// of a point source at `pivot` that, scattered once more on its way, arrives there and is
-/// scattered along the ray, without transmittance and visibility: F(alpha) / D, D the distance
-/// to the pivot and alpha its angle from the ray [Georgiev13]. In isotropic media that is 1 / D,
-/// uniform in l = asinh(s / h) = log(tan(alpha / 2)).
+/// Draws the first of two scattering vertices on a ray, with density proportional to the
+/// light of a point source at `pivot` that, scattered once more on its way, arrives there
+/// and is scattered along the ray, without transmittance and visibility: F(alpha) / D, D
+/// the distance to the pivot and alpha its angle from the ray [Georgiev13]. In isotropic
+/// media that is 1 / D, uniform in l = asinh(s / h) = log(tan(alpha / 2)).
 ///
-/// A value, built once per ray and pivot; `ray.d` is unit length. The stretch must be finite, as
-/// the integral grows with its logarithm. `tables` must outlive it.
+/// A value, built once per ray and pivot; `ray.d` is unit length. The stretch must be
+/// finite, as the integral grows with its logarithm. `tables` must outlive it.
 class DoubleScatteringDistance {
  public:
   DoubleScatteringDistance(const ScatteringTables& tables, const Ray& ray, Vec3 pivot,
@@ -33,13 +33,15 @@ class DoubleScatteringDistance {
       const float l = std::log(segment_.plus_near() > segment_.h()
                                    ? segment_.plus_near() / segment_.h()
                                    : segment_.h() / segment_.minus_near());
-      fluence_ = tables.fluence().cursor(segment_.is_forward() ? l : -l, !segment_.is_forward());
+      fluence_ =
+          tables.fluence().cursor(segment_.is_forward() ? l : -l, !segment_.is_forward());
       is_tabulated_ = true;
     }
     integral_ = density_or_zero(is_tabulated_ ? fluence_.integral(length_) : length_);
   }
 
-  /// The integral of F(alpha) / D over the stretch, F = 1 in isotropic media. Zero if empty.
+  /// The integral of F(alpha) / D over the stretch, F = 1 in isotropic media. Zero if
+  /// empty.
   float integral() const { return integral_; }
 
   /// Empty if the stretch is empty, infinite, or runs through the pivot. t grows with u.
@@ -69,7 +71,8 @@ class DoubleScatteringDistance {
     return segment_.from_near(std::min(part / integral_, 1.0f));
   }
 
-  /// The points at u = (i + 1/2) / K of the isotropic technique; t to about 1e-5 of its range.
+  /// The points at u = (i + 1/2) / K of the isotropic technique; t to about 1e-5 of its
+  /// range.
   template <int K>
   DistanceTaps<K> taps() const;
 
@@ -93,8 +96,8 @@ class DoubleScatteringDistance {
 
 template <int K>
 DistanceTaps<K> DoubleScatteringDistance::taps() const {
-  // r + s is a geometric sequence; each tap is the product of one of the first eight and the
-  // power of one ratio.
+  // r + s is a geometric sequence; each tap is the product of one of the first eight and
+  // the power of one ratio.
   constexpr int lanes = 8;
   static_assert(K % lanes == 0);
   const float sign = segment_.sign();

@@ -11,9 +11,9 @@
 
 namespace tyndall {
 
-/// The integral of 1 / D^2 from the near end of a stretch to an offset: the angle under which the
-/// pivot sees it, over h. As the arc tangent of a quotient of products it keeps its relative
-/// precision for small angles, and is defined for h = 0.
+/// The integral of 1 / D^2 from the near end of a stretch to an offset: the angle under
+/// which the pivot sees it, over h. As the arc tangent of a quotient of products it keeps
+/// its relative precision for small angles, and is defined for h = 0.
 inline float inverse_square_integral(const PivotSegment& segment, float offset) {
   const double h = segment.h(), s0 = segment.s_near();
   const bool is_finite = offset < infinity;
@@ -27,8 +27,8 @@ inline float inverse_square_integral(const PivotSegment& segment, float offset) 
   return angle / segment.h();
 }
 
-/// The offset up to which inverse_square_integral() is `part`: the near end's direction from the
-/// pivot turned by the angle h * part.
+/// The offset up to which inverse_square_integral() is `part`: the near end's direction
+/// from the pivot turned by the angle h * part.
 inline float inverse_square_offset(const PivotSegment& segment, float part) {
   const float angle = segment.h() * part;
   const float sine_over_h = angle > 0 ? std::sin(angle) / angle * part : part;
@@ -38,11 +38,12 @@ inline float inverse_square_offset(const PivotSegment& segment, float part) {
   return std::min(r * sine_over_h * (r / cosine), segment.length());
 }
 
-/// Draws distances in [t_min, t_max] with density proportional to the inverse squared distance
-/// to `pivot`, usually a point on a light [KF12]: single scattering without its phase function.
+/// Draws distances in [t_min, t_max] with density proportional to the inverse squared
+/// distance to `pivot`, usually a point on a light [KF12]: single scattering without its
+/// phase function.
 ///
-/// A value, built once per ray and pivot; `ray.d` is unit length, t_max may be infinite. The
-/// pivot may lie anywhere but on the stretch itself; there the technique is empty.
+/// A value, built once per ray and pivot; `ray.d` is unit length, t_max may be infinite.
+/// The pivot may lie anywhere but on the stretch itself; there the technique is empty.
 class EquiangularSampling {
  public:
   EquiangularSampling(const Ray& ray, Vec3 pivot, float t_min, float t_max)
@@ -59,8 +60,8 @@ class EquiangularSampling {
   /// Empty if the stretch is empty or runs through the pivot. t grows with u.
   std::optional<DistanceSample> sample(float u) const {
     if (!(integral_ > 0)) return std::nullopt;
-    const float t = segment_.t(
-        inverse_square_offset(segment_, segment_.from_near(u) * integral_));
+    const float t =
+        segment_.t(inverse_square_offset(segment_, segment_.from_near(u) * integral_));
     const float pdf = pdf_t(t);
     if (!(pdf > 0)) return std::nullopt;
     return DistanceSample{.t = t, .pdf_t = pdf};
@@ -94,8 +95,9 @@ class EquiangularSampling {
 
 template <int K>
 DistanceTaps<K> EquiangularSampling::taps() const {
-  // The unit vector from the pivot turns by equal angles from tap to tap: the first eight by
-  // doubling, the rest by turning eight together. Sines are kept over h, which may be zero.
+  // The unit vector from the pivot turns by equal angles from tap to tap: the first eight
+  // by doubling, the rest by turning eight together. Sines are kept over h, which may be
+  // zero.
   constexpr int lanes = 8;
   static_assert(K % lanes == 0 && K >= 16);
   struct Turn {
@@ -107,7 +109,8 @@ DistanceTaps<K> EquiangularSampling::taps() const {
   const float h = segment_.h(), s0 = segment_.s_near(), r0 = segment_.r_near(), h2 = h * h;
   const float sign = segment_.sign();
 
-  // Half a step is at most pi / 32 wide, where these polynomials are exact to float precision.
+  // Half a step is at most pi / 32 wide, where these polynomials are exact to float
+  // precision.
   const float half = sign * 0.5f * integral_ / K, square = h2 * half * half;
   const Turn half_step{1 - square * (0.5f - square * (1.0f / 24 - square * (1.0f / 720))),
                        half * (1 - square * (1.0f / 6 - square * (1.0f / 120)))};

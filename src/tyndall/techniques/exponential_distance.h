@@ -10,15 +10,17 @@
 
 namespace tyndall {
 
-/// Draws distances in [t_min, t_max] with density proportional to exp(-sigma_t t): transmittance
-/// of a homogeneous medium, for lights so far away that nothing else changes along the ray. With
-/// sigma_t = 0 they are uniform. t_max may be infinite if sigma_t is positive.
+/// Draws distances in [t_min, t_max] with density proportional to exp(-sigma_t t):
+/// transmittance of a homogeneous medium, for lights so far away that nothing else changes
+/// along the ray. With sigma_t = 0 they are uniform. t_max may be infinite if sigma_t is
+/// positive.
 class ExponentialDistance {
  public:
   ExponentialDistance(float sigma_t, float t_min, float t_max)
       : sigma_t_(sigma_t), t_min_(t_min), t_max_(t_max) {
     if (!(t_max > t_min && t_min > -infinity && sigma_t >= 0 && sigma_t < infinity)) return;
-    // The integral of exp(-sigma_t (t - t_min)), in a form that holds for sigma_t = 0 as well.
+    // The integral of exp(-sigma_t (t - t_min)), in a form that holds for sigma_t = 0 as
+    // well.
     const float depth = sigma_t * (t_max - t_min);
     integral_ = density_or_zero(depth > 0 ? -std::expm1(-depth) / sigma_t : t_max - t_min);
   }

@@ -6,11 +6,11 @@
 
 namespace tyndall {
 
-/// e^x for choosing densities by: relative error below 4e-6 for |x| < 85, clamped beyond, so
-/// positive and finite whatever x is. Loops over it are vectorised.
+/// e^x for choosing densities by: relative error below 4e-6 for |x| < 85, clamped beyond,
+/// so positive and finite whatever x is. Loops over it are vectorised.
 inline float fast_exp(float x) {
-  // 2^y with y = n + f, |f| <= 1/2. Adding the large number leaves n in its low bits, which go
-  // into the exponent of a polynomial in f.
+  // 2^y with y = n + f, |f| <= 1/2. Adding the large number leaves n in its low bits, which
+  // go into the exponent of a polynomial in f.
   const float scaled = x * 1.44269504f;
   const float above = scaled > -123 ? scaled : -123;
   const float y = above < 123 ? above : 123;

@@ -10,12 +10,13 @@
 
 namespace tyndall {
 
-/// Densities on [0, 1], one per row, each linear between the same equidistant nodes. Immutable.
+/// Densities on [0, 1], one per row, each linear between the same equidistant nodes.
+/// Immutable.
 class LinearRows {
  public:
   LinearRows() = default;
-  /// Row-major `values` at the nodes, (rows, cells + 1); positive or zero, and finite. There
-  /// are 64 cells.
+  /// Row-major `values` at the nodes, (rows, cells + 1); positive or zero, and finite.
+  /// There are 64 cells.
   LinearRows(std::span<const float> values, int rows);
 
   class Blend;
@@ -84,7 +85,9 @@ class LinearRows::Blend {
   float position(float x) const {
     return (x > 0 ? std::min(x, 1.0f) : 0) * static_cast<float>(cells_);
   }
-  int cell(float position) const { return std::min(static_cast<int>(position), cells_ - 1); }
+  int cell(float position) const {
+    return std::min(static_cast<int>(position), cells_ - 1);
+  }
   /// The last of eight growing numbers that is at most `part`, or the first.
   int last_below(const float* a, const float* b, float part) const {
     int below = 0;
@@ -92,7 +95,8 @@ class LinearRows::Blend {
     return below;
   }
 
-  const float *value_a_ = nullptr, *value_b_ = nullptr, *cdf_a_ = nullptr, *cdf_b_ = nullptr;
+  const float *value_a_ = nullptr, *value_b_ = nullptr, *cdf_a_ = nullptr,
+              *cdf_b_ = nullptr;
   const float *block_a_ = nullptr, *block_b_ = nullptr;
   float weight_ = 0;
   int cells_ = 0;

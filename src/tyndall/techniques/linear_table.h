@@ -8,9 +8,9 @@
 
 namespace tyndall {
 
-/// A positive function on [x_min, x_max], linear between equidistant nodes and constant beyond
-/// the ends, whose integrals from any point are taken and inverted to float precision, however
-/// short the way or small the function. Immutable.
+/// A positive function on [x_min, x_max], linear between equidistant nodes and constant
+/// beyond the ends, whose integrals from any point are taken and inverted to float
+/// precision, however short the way or small the function. Immutable.
 class LinearTable {
  public:
   LinearTable() = default;
@@ -37,8 +37,8 @@ class LinearTable {
   int cell_at(double integral) const;
 };
 
-/// A point of a table and a direction. Distances `delta` from it are not negative. The table
-/// must outlive it.
+/// A point of a table and a direction. Distances `delta` from it are not negative. The
+/// table must outlive it.
 class LinearTable::Cursor {
  public:
   Cursor() = default;
@@ -59,7 +59,9 @@ class LinearTable::Cursor {
         step_(is_reversed ? -1 : 1) {}
 
   // Nodes are counted from the end where this direction starts.
-  float node(int i) const { return table_->values_[static_cast<size_t>(origin_ + step_ * i)]; }
+  float node(int i) const {
+    return table_->values_[static_cast<size_t>(origin_ + step_ * i)];
+  }
   /// The integral up to node i, but for a constant.
   double sum(int i) const {
     return step_ * table_->integral_[static_cast<size_t>(origin_ + step_ * i)];

@@ -9,14 +9,14 @@
 
 namespace tyndall {
 
-/// The stretch [t_min, t_max] of a ray as seen from a pivot, usually a point on a light: the
-/// coordinates that all distance techniques share. t_max may be infinite.
+/// The stretch [t_min, t_max] of a ray as seen from a pivot, usually a point on a light:
+/// the coordinates that all distance techniques share. t_max may be infinite.
 ///
-/// Positions are measured by their offset from that end of the stretch that is nearer to the
-/// foot of the perpendicular from the pivot, so that no difference of nearly equal numbers is
-/// ever taken: a stretch far from the pivot, or a pivot on the line of the ray, loses no
-/// digits. `s` is the position relative to the foot, counted in the direction away from that
-/// end; it grows with the offset, from s_near() on.
+/// Positions are measured by their offset from that end of the stretch that is nearer to
+/// the foot of the perpendicular from the pivot, so that no difference of nearly equal
+/// numbers is ever taken: a stretch far from the pivot, or a pivot on the line of the ray,
+/// loses no digits. `s` is the position relative to the foot, counted in the direction away
+/// from that end; it grows with the offset, from s_near() on.
 class PivotSegment {
  public:
   PivotSegment(const Ray& ray, Vec3 pivot, float t_min, float t_max)
@@ -43,8 +43,8 @@ class PivotSegment {
     minus_near_ = static_cast<float>(s > 0 ? h2 / other : other);
   }
 
-  /// False if the stretch is empty, not a number, or runs through the pivot, where densities
-  /// in the inverse distance have no finite integral.
+  /// False if the stretch is empty, not a number, or runs through the pivot, where
+  /// densities in the inverse distance have no finite integral.
   bool is_proper() const {
     return length_ > 0 && t_min_ > -infinity && r_near_ > 0 && r_near_ < infinity &&
            h_ < infinity && (h_ > 0 || s_near_ > 0);
@@ -61,8 +61,10 @@ class PivotSegment {
   float sign() const { return sign_; }  ///< 1 if offsets grow with t, else -1
   float t_near() const { return t_near_; }
 
-  float plus_near() const { return plus_near_; }    ///< r + s at the near end, not cancelled
-  float minus_near() const { return minus_near_; }  ///< r - s at the near end, not cancelled
+  float plus_near() const { return plus_near_; }  ///< r + s at the near end, not cancelled
+  float minus_near() const {
+    return minus_near_;
+  }  ///< r - s at the near end, not cancelled
 
   bool contains(float t) const { return t >= t_min_ && t <= t_max_; }
   float offset(float t) const { return sign_ * (t - t_near_); }

@@ -8,21 +8,21 @@
 
 namespace tyndall {
 
-/// Draws distances with density proportional to max(0, n . w) / D^2, w the unit direction from
-/// `pivot` to the point and D its distance: single scattering of light from a point with normal
-/// `n` on a diffuse, one-sided area light [Villeneuve21]. For a two-sided light use the side
-/// that is drawn first.
+/// Draws distances with density proportional to max(0, n . w) / D^2, w the unit direction
+/// from `pivot` to the point and D its distance: single scattering of light from a point
+/// with normal `n` on a diffuse, one-sided area light [Villeneuve21]. For a two-sided light
+/// use the side that is drawn first.
 ///
-/// In the equi-angular angle theta the density is the cosine of its distance from the normal's
-/// projection, so that its integral is a sine. A value, built once per ray and pivot; `ray.d`
-/// and `n` are unit length, t_max may be infinite.
+/// In the equi-angular angle theta the density is the cosine of its distance from the
+/// normal's projection, so that its integral is a sine. A value, built once per ray and
+/// pivot; `ray.d` and `n` are unit length, t_max may be infinite.
 class PointNormalSampling {
  public:
   PointNormalSampling(const Ray& ray, Vec3 pivot, Vec3 n, float t_min, float t_max)
       : PointNormalSampling(lit_stretch(ray, pivot, n, t_min, t_max)) {}
 
-  /// Empty if the light shines on no part of the stretch, or if the stretch runs along a line
-  /// through the pivot. t grows with u.
+  /// Empty if the light shines on no part of the stretch, or if the stretch runs along a
+  /// line through the pivot. t grows with u.
   std::optional<DistanceSample> sample(float u) const {
     if (!(width_ > 0)) return std::nullopt;
     const float v = segment_.from_near(u);
@@ -37,8 +37,9 @@ class PointNormalSampling {
     const float cos_turn = sine * sine_near_ + cosine * cosine_near_;
     const float cos_end = segment_.h() * cos_turn - segment_.s_near() * turn;
     const float r = segment_.r_near();
-    const float t = segment_.t(cos_end > 0 ? std::min(r * turn * (r / cos_end), segment_.length())
-                                           : segment_.length());
+    const float t =
+        segment_.t(cos_end > 0 ? std::min(r * turn * (r / cos_end), segment_.length())
+                               : segment_.length());
     const float pdf = pdf_t(t);
     if (!(pdf > 0)) return std::nullopt;
     return DistanceSample{.t = t, .pdf_t = pdf};
@@ -89,8 +90,8 @@ class PointNormalSampling {
     };
     const Vec3 o = lit.ray.o, d = lit.ray.d, p = lit.pivot;
     const double x = double(p.x) - o.x, y = double(p.y) - o.y, z = double(p.z) - o.z;
-    const double foot_height = dot64(lit.n, d.x, d.y, d.z) * dot64(d, x, y, z) -
-                               dot64(lit.n, x, y, z);
+    const double foot_height =
+        dot64(lit.n, d.x, d.y, d.z) * dot64(d, x, y, z) - dot64(lit.n, x, y, z);
     const auto across = static_cast<float>(foot_height / segment_.h());
     const float in_plane = std::sqrt(across * across + along * along);
     if (!(in_plane > 0 && in_plane < infinity)) return;
@@ -109,8 +110,10 @@ class PointNormalSampling {
     const bool is_finite = offset < infinity;
     const float s = segment_.s(offset), r = segment_.r(s), h = segment_.h();
     const float cos_end = is_finite ? h / r : 0, sin_end = is_finite ? s / r : 1;
-    const float r0 = segment_.r_near(), cos_near = h / r0, sin_near = segment_.s_near() / r0;
-    if (!(cos_near * cos_end + sin_near * sin_end > 0))  // a wide angle, where nothing cancels
+    const float r0 = segment_.r_near(), cos_near = h / r0,
+                sin_near = segment_.s_near() / r0;
+    if (!(cos_near * cos_end + sin_near * sin_end >
+          0))  // a wide angle, where nothing cancels
       return normal_h_ * sin_end - normal_s_ * cos_end - sine_near_;
     const float sum = normal_h_ * (cos_near + cos_end) + normal_s_ * (sin_near + sin_end);
     // tan(turn / 2) = sin(turn) / (1 + cos(turn))
@@ -120,7 +123,7 @@ class PointNormalSampling {
   }
 
   PivotSegment segment_;
-  float normal_h_ = 0, normal_s_ = 0;       // of unit length
+  float normal_h_ = 0, normal_s_ = 0;      // of unit length
   float sine_near_ = 0, cosine_near_ = 0;  // of the near end's angle from the normal
   float width_ = 0;                        // of the sine over the stretch
 };

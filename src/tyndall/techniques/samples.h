@@ -18,8 +18,6 @@ struct DoubleDirectionSample {
 };
 
 /// `pdf` where it is a density, and zero where rounding or bad input left something else.
-constexpr float density_or_zero(float pdf) {
-  return pdf > 0 && pdf < infinity ? pdf : 0;
-}
+constexpr float density_or_zero(float pdf) { return pdf > 0 && pdf < infinity ? pdf : 0; }
 
 }  // namespace tyndall

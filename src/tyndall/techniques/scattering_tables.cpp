@@ -58,9 +58,9 @@ std::vector<float> arc_values(double g, double k) {
   return values;
 }
 
-/// Double scattering at a first vertex at angle alpha from the light, up to a factor, over the
-/// polar angle theta: the phase function of the first vertex integrated over the azimuth, times
-/// the light P(theta) scattered once along the direction.
+/// Double scattering at a first vertex at angle alpha from the light, up to a factor, over
+/// the polar angle theta: the phase function of the first vertex integrated over the
+/// azimuth, times the light P(theta) scattered once along the direction.
 class PolarIntegrand {
  public:
   PolarIntegrand(double g, double k, const LinearTable& arc)
@@ -111,8 +111,8 @@ double integrate_halves(const PolarIntegrand& f, double a, double k) {
   return sum;
 }
 
-/// Where log(tan(alpha / 2)) is tabulated: beyond, alpha differs from 0 or pi by less than a
-/// thousandth of the width of the phase function's peak.
+/// Where log(tan(alpha / 2)) is tabulated: beyond, alpha differs from 0 or pi by less than
+/// a thousandth of the width of the phase function's peak.
 double fluence_range(double g) { return std::log(2000 / (1 - std::abs(g))); }
 
 LinearTable make_fluence(const PolarIntegrand& f, double g, double k) {
@@ -198,7 +198,8 @@ float ThetaWarp::z(float y) const {
   return std::min(2 * q / (linear_part + root), 1.0f);
 }
 
-ScatteringTables::ScatteringTables(float g) : g_(g),
+ScatteringTables::ScatteringTables(float g)
+    : g_(g),
       k_(std::sqrt((1 + g) / (1 - g))),
       k_theta_(g < 0 ? 1 : std::sqrt(k_)),
       azimuth_(&azimuth_table()) {

@@ -8,14 +8,16 @@
 
 namespace tyndall {
 
-/// What the joint sampling of single and double scattering knows about a phase function: tables
-/// for the Henyey-Greenstein phase function of one asymmetry, shared by all rays. Immutable;
-/// build one per medium (a few ten milliseconds; about 33 k floats). Techniques keep a pointer
-/// to it. At g = 0 there are no tables, and the techniques use closed forms [Georgiev13].
+/// What the joint sampling of single and double scattering knows about a phase function:
+/// tables for the Henyey-Greenstein phase function of one asymmetry, shared by all rays.
+/// Immutable; build one per medium (a few ten milliseconds; about 33 k floats). Techniques
+/// keep a pointer to it. At g = 0 there are no tables, and the techniques use closed forms
+/// [Georgiev13].
 ///
 /// Angles are kept as y = k v / (1 + k v) in [0, 1], v the tangent of half the angle and
-/// k = sqrt((1 + |g|) / (1 - |g|)) or its inverse for backward scattering: in y the peak of the
-/// phase function is as wide at every g as a table can hold, and no trigonometry is needed.
+/// k = sqrt((1 + |g|) / (1 - |g|)) or its inverse for backward scattering: in y the peak of
+/// the phase function is as wide at every g as a table can hold, and no trigonometry is
+/// needed.
 class ScatteringTables {
  public:
   /// Precondition: -1 < g < 1.
@@ -34,15 +36,16 @@ class ScatteringTables {
   /// log(tan(alpha / 2)); up to a factor.
   const LinearTable& fluence() const { return fluence_; }
   /// The polar angle theta of double scattering, given alpha: rows 2i and 2i + 1 for the
-  /// i-th of equidistant y(alpha), below and above theta = alpha; see ThetaWarp. Each pair has
-  /// mass one.
+  /// i-th of equidistant y(alpha), below and above theta = alpha; see ThetaWarp. Each pair
+  /// has mass one.
   const LinearRows& theta() const { return theta_; }
   /// The polar angle if light arrives at the first vertex from everywhere alike: the upper
   /// half for alpha = 0. Mass one.
   const LinearRows& theta_of_any_direction() const { return theta_of_any_direction_; }
   /// The azimuth phi of double scattering, the same for all phase functions: the density
   /// (1 - k cos phi)^(-3/2), k = (1 - e^2) / (1 + e^2), over
-  /// eta = tan(phi/2) / (e + tan(phi/2)). Row i is e = (i / (rows - 1))^2. Each has mass one.
+  /// eta = tan(phi/2) / (e + tan(phi/2)). Row i is e = (i / (rows - 1))^2. Each has mass
+  /// one.
   const LinearRows& azimuth() const { return *azimuth_; }
 
   /// Number of floats held, the shared azimuth() left out; a double counts as two.
@@ -60,8 +63,9 @@ class ScatteringTables {
   const LinearRows* azimuth_;  // shared by all
 };
 
-/// Where a half of a theta row has its nodes: z in [0, 1] from theta = alpha (z = 0) outwards,
-/// fine where the phase function of the first vertex has its peak. `a` is y(alpha).
+/// Where a half of a theta row has its nodes: z in [0, 1] from theta = alpha (z = 0)
+/// outwards, fine where the phase function of the first vertex has its peak. `a` is
+/// y(alpha).
 struct ThetaWarp {
   float a;
   bool is_above;  ///< theta > alpha

@@ -9,10 +9,10 @@
 namespace tyndall {
 
 /// Draws distances with density proportional to rho(cos alpha) / D^2, D the distance to the
-/// pivot and alpha its angle from the ray: the only scattering vertex between a ray and a light,
-/// or the last of several, exact to the tables' few 1e-6. In the angle alpha the density is rho
-/// alone. In isotropic media, and for a pivot on the line of the ray, where alpha does not
-/// change, it is EquiangularSampling.
+/// pivot and alpha its angle from the ray: the only scattering vertex between a ray and a
+/// light, or the last of several, exact to the tables' few 1e-6. In the angle alpha the
+/// density is rho alone. In isotropic media, and for a pivot on the line of the ray, where
+/// alpha does not change, it is EquiangularSampling.
 ///
 /// A value, built once per ray and pivot; `ray.d` is unit length, t_max may be infinite.
 /// `tables` must outlive it.
@@ -58,13 +58,14 @@ class SingleScatteringDistance {
   float invert(float t) const {
     if (!(integral_ > 0)) return 0;
     const float offset = std::clamp(segment_.offset(t), 0.0f, segment_.length());
-    const float part =
-        is_tabulated_ ? arc_.integral(way(offset)) : inverse_square_integral(segment_, offset);
+    const float part = is_tabulated_ ? arc_.integral(way(offset))
+                                     : inverse_square_integral(segment_, offset);
     return segment_.from_near(std::min(part / integral_, 1.0f));
   }
 
  private:
-  // With c = 1 / tan(alpha / 2), alpha counted in the direction of s, y(alpha) = k / (k + c).
+  // With c = 1 / tan(alpha / 2), alpha counted in the direction of s, y(alpha) = k / (k +
+  // c).
 
   void tabulate(const ScatteringTables& tables) {
     k_ = segment_.is_forward() ? tables.k() : 1 / tables.k();
