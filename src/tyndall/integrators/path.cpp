@@ -114,15 +114,20 @@ void Path::add_surface_emission(const SurfaceHit& hit) {
   const Rgb Le = area->Le(hit.point, -ray_.d);
   if (is_black(Le)) return;
   const float light_pdf = start_.is_specular ? 0 : hit.light->pdf(start_.p, hit.point);
-  add(beta_ * Le * hit_weight(hit.light_index, light_pdf, hit.t));
+  add_found_by_walk(beta_ * Le * hit_weight(hit.light_index, light_pdf, hit.t));
 }
 
 void Path::add_environment() {
   if (!rules_.orders.contains(order_)) return;
   for (const size_t i : scene_.environments()) {
     const Light& light = scene_.lights()[i];
-    add(beta_ * light.environment(ray_.d) * hit_weight(i, light.pdf(ray_.d), infinity));
+    add_found_by_walk(beta_ * light.environment(ray_.d) *
+                      hit_weight(i, light.pdf(ray_.d), infinity));
   }
+}
+
+void Path::finish() const {
+  if (rules_.budget) rules_.budget->record_walk(walk_found_, depth_ + 1);
 }
 
 bool Path::scatter() {

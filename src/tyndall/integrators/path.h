@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "tyndall/image/film.h"
+#include "tyndall/integrators/connection_budget.h"
 #include "tyndall/integrators/leg.h"
 #include "tyndall/integrators/render_settings.h"
 #include "tyndall/integrators/tail.h"
@@ -18,6 +19,7 @@ struct PathRules {
   ScatteringOrders orders;
   bool is_chromatic;  ///< some medium differs between the colour channels
   const ConnectionContext* connections;  ///< null: next event estimation only
+  const ConnectionBudget* budget;        ///< null: each connection once
 };
 
 /// Rays between two points stop short of the second by this share of their length, lest
@@ -49,6 +51,8 @@ class Path {
   /// ends.
   bool scatter();
 
+  /// Tells the budget what the walk alone found. To be called once, at the end.
+  void finish() const;
   const PathSample& result() const { return result_; }
 
  private:
@@ -62,6 +66,10 @@ class Path {
   bool set_vertex(const Vertex& vertex, float t);
   bool survives_roulette();
   void add(Rgb contribution) { result_.L += contribution / average(spectral_); }
+  void add_found_by_walk(Rgb contribution) {
+    walk_found_ += luminance(contribution) / average(spectral_);
+    add(contribution);
+  }
 
   // Light that arrives at a vertex from a light, and the densities of the sample.
   struct Connection {
@@ -75,8 +83,11 @@ class Path {
   float direct_weight(const LightEnd& end);
   float hit_weight(size_t light, float light_pdf, float distance);
   bool counts(int more_vertices) const;
-  void connect_single(Leg& leg);
-  void connect_dual(Leg& leg);
+  // What one connection finds, before spectral MIS.
+  Rgb connect_single(Leg& leg);
+  Rgb connect_dual(Leg& leg);
+  template <typename Connect>
+  void spend(Effort effort, const Connect& connect);
 
   // A lit point as seen from a vertex x before it.
   struct LitView {
@@ -88,8 +99,8 @@ class Path {
   };
   std::optional<LitPoint> sample_lit_point();
   std::optional<LitView> look_at(const LitPoint& lit, const Vertex& x);
-  void connect_lit(Leg& leg);  // from the leg
-  void connect_lit();          // from the vertex
+  Rgb connect_lit(Leg& leg);  // from the leg
+  Rgb connect_lit();          // from the vertex
   Rgb leg_transmittance(Leg& leg, float t);
 
   const Scene& scene_;
@@ -106,7 +117,8 @@ class Path {
   int order_ = 0;  // of them, in media
   float eta_scale_ = 1;
   std::optional<Vertex> vertex_;
-  float t_vertex_ = 0;  // along the leg to it
+  float walk_found_ = 0;  // luminance, without connections
+  float t_vertex_ = 0;    // along the leg to it
 
   // The last legs, for the densities of techniques that the walk did not use.
   Pivots pivots_;
@@ -115,5 +127,25 @@ class Path {
   LegStart start_before_;  // of leg_before_
   PathSample result_;
 };
+
+// Makes the connection as often as the budget says, on average.
+template <typename Connect>
+void Path::spend(Effort effort, const Connect& connect) {
+  const float wanted = rules_.budget ? rules_.budget->count(effort, depth_) : 1;
+  const auto whole = static_cast<int>(wanted);
+  const float rest = wanted - static_cast<float>(whole);
+  const int count = whole + (rest > 0 && tracking_.next_1d() < rest ? 1 : 0);
+  if (count == 0) return;
+  Rgb sum;
+  float found[2] = {0, 0};
+  for (int i = 0; i < count; ++i) {
+    const Rgb value = connect();
+    sum += value;
+    if (i < 2) found[i] = luminance(value) / average(spectral_);
+  }
+  add(sum / wanted);
+  if (rules_.budget && count >= 2)
+    rules_.budget->record_pair(effort, depth_, found[0], found[1]);
+}
 
 }  // namespace tyndall

@@ -49,14 +49,15 @@ Path::Connection Path::connect_to(const Vertex& vertex, const SelectedLight& sel
 void Path::estimate_direct() {
   if (vertex_->is_specular()) return;
   if (rules_.connections && rules_.connections->lit_surfaces() && !vertex_->is_in_medium())
-    connect_lit();
+    spend(Effort::lit_from_vertex, [&] { return connect_lit(); });
   const std::optional<SelectedLight> selected =
       select_light(vertex_->p(), sampler_.next_1d());
   if (!selected || !counts(0) || is_left_to_connections(selected->index)) return;
   const Connection connection = connect_to(*vertex_, *selected);
   if (is_black(connection.light)) return;
   const float weight = direct_weight(connection.end);
-  add(beta_ * connection.light * (weight / (selected->probability * connection.end.pdf)));
+  add_found_by_walk(beta_ * connection.light *
+                    (weight / (selected->probability * connection.end.pdf)));
 }
 
 // Whether next event estimation at the current vertex would have the weight zero.
@@ -105,9 +106,12 @@ void Path::connect(Leg& leg) {
   leg_before_ = std::move(leg_);
   leg_ = ConnectionLeg(*rules_.connections, pivots_, leg);
   if (leg_.is_empty()) return;
-  if (counts(1)) connect_single(leg);
-  if (counts(2) && rules_.connections->settings().dual) connect_dual(leg);
-  if (rules_.connections->lit_surfaces()) connect_lit(leg);
+  if (counts(1)) spend(Effort::single, [&] { return connect_single(leg); });
+  if (counts(2) && rules_.connections->settings().dual)
+    spend(Effort::dual, [&] { return connect_dual(leg); });
+  if (rules_.connections->lit_surfaces() && depth_ + 2 <= rules_.max_depth &&
+      rules_.orders.contains(order_ + 1))
+    spend(Effort::lit_from_leg, [&] { return connect_lit(leg); });
 }
 
 Rgb Path::leg_transmittance(Leg& leg, float t) {
@@ -122,41 +126,41 @@ Rgb Path::leg_transmittance(Leg& leg, float t) {
   return product;
 }
 
-void Path::connect_single(Leg& leg) {
+Rgb Path::connect_single(Leg& leg) {
   const std::optional<SelectedLight> selected = leg_.select_light(sampler_.next_1d());
   const float u = sampler_.next_1d();
-  if (!selected || leg_before_.dual_from(start_, selected->index)) return;
+  if (!selected || leg_before_.dual_from(start_, selected->index)) return Rgb();
   const ConnectionLeg::Single* single = leg_.single(selected->index);
-  if (!single) return;
+  if (!single) return Rgb();
   const std::optional<DistanceSample> s = single->sample(u);
   const Medium* medium = s ? leg_.proxy().medium_at(s->t) : nullptr;
-  if (!medium) return;
+  if (!medium) return Rgb();
   const Vertex last(leg.ray().at(s->t), -leg.ray().d, medium);
   const Connection connection = connect_to(last, *selected);
-  if (is_black(connection.light)) return;
+  if (is_black(connection.light)) return Rgb();
   const TailDensities densities =
       tail_densities(*rules_.connections, leg_before_, start_, leg_, s->t, connection.end);
   const Rgb value =
       leg_transmittance(leg, s->t) * medium->at(last.p()).sigma_s * connection.light;
-  add(beta_ * value *
-      (densities.weight(densities.single) /
-       (s->pdf_t * selected->probability * connection.end.pdf)));
+  return beta_ * value *
+         (densities.weight(densities.single) /
+          (s->pdf_t * selected->probability * connection.end.pdf));
 }
 
-void Path::connect_dual(Leg& leg) {
+Rgb Path::connect_dual(Leg& leg) {
   const std::optional<SelectedLight> selected = leg_.select_light(sampler_.next_1d());
   const float u_first = sampler_.next_1d(), u_last = sampler_.next_1d();
   const Vec2 u_direction = sampler_.next_2d();
   const ConnectionLeg::Double* dual = selected ? leg_.dual(selected->index) : nullptr;
-  if (!dual) return;
+  if (!dual) return Rgb();
   const std::optional<DistanceSample> first = dual->sample(u_first);
   const Medium* medium = first ? leg_.proxy().medium_at(first->t) : nullptr;
-  if (!medium) return;
+  if (!medium) return Rgb();
   const Vertex x(leg.ray().at(first->t), -leg.ray().d, medium);
   const DoubleScatteringDirection technique(rules_.connections->tables(*medium), x.p(),
                                             leg.ray().d, *leg_.pivot(selected->index));
   const std::optional<DoubleDirectionSample> direction = technique.sample(u_direction);
-  if (!direction) return;
+  if (!direction) return Rgb();
 
   Leg next(scene_, x.spawn(direction->w), medium);
   ConnectionLeg next_leg(*rules_.connections, pivots_, next);
@@ -164,10 +168,10 @@ void Path::connect_dual(Leg& leg) {
   const std::optional<DistanceSample> second =
       single ? single->sample(u_last) : std::optional<DistanceSample>();
   const Medium* last_medium = second ? next_leg.proxy().medium_at(second->t) : nullptr;
-  if (!last_medium) return;
+  if (!last_medium) return Rgb();
   const Vertex y(next.ray().at(second->t), -direction->w, last_medium);
   const Connection connection = connect_to(y, *selected);
-  if (is_black(connection.light)) return;
+  if (is_black(connection.light)) return Rgb();
 
   const LegStart start = start_of_leg(x, first->t, x.pdf(direction->w), false);
   const TailDensities densities =
@@ -177,7 +181,7 @@ void Path::connect_dual(Leg& leg) {
                         last_medium->at(y.p()).sigma_s;
   const float pdf = first->pdf_t * direction->pdf * second->pdf_t * selected->probability *
                     connection.end.pdf;
-  add(beta_ * scattered * connection.light * (densities.weight(densities.dual) / pdf));
+  return beta_ * scattered * connection.light * (densities.weight(densities.dual) / pdf);
 }
 
 }  // namespace tyndall

@@ -45,38 +45,37 @@ std::optional<Path::LitView> Path::look_at(const LitPoint& lit, const Vertex& x)
                  .end = end};
 }
 
-void Path::connect_lit(Leg& leg) {
-  if (depth_ + 2 > rules_.max_depth || !rules_.orders.contains(order_ + 1)) return;
+Rgb Path::connect_lit(Leg& leg) {
   const std::optional<LitPoint> lit = sample_lit_point();
   const float u = sampler_.next_1d();
-  if (!lit) return;
+  if (!lit) return Rgb();
   const std::optional<ConnectionLeg::Lit> technique =
       leg_.lit(lit->hit.point.p, lit->hit.point.ng, lit->to_light);
   const std::optional<DistanceSample> s =
       technique ? technique->sample(u) : std::optional<DistanceSample>();
   const Medium* medium = s ? leg_.proxy().medium_at(s->t) : nullptr;
-  if (!medium) return;
+  if (!medium) return Rgb();
   const Vertex x(leg.ray().at(s->t), -leg.ray().d, medium);
   const std::optional<LitView> view = look_at(*lit, x);
-  if (!view || is_black(view->light)) return;
+  if (!view || is_black(view->light)) return Rgb();
   const LegStart start = start_of_leg(x, s->t, x.pdf(view->w), false);
   const TailDensities densities = surface_tail_densities(
       *rules_.connections, leg_, start, view->y, view->distance, view->end);
   const Rgb scattered =
       leg_transmittance(leg, s->t) * medium->at(x.p()).sigma_s * x.eval(view->w);
-  add(beta_ * scattered * view->light * (densities.weight(densities.lit) / s->pdf_t));
+  return beta_ * scattered * view->light * (densities.weight(densities.lit) / s->pdf_t);
 }
 
-void Path::connect_lit() {
-  if (depth_ + 1 > rules_.max_depth || !rules_.orders.contains(order_)) return;
+Rgb Path::connect_lit() {
+  if (depth_ + 1 > rules_.max_depth || !rules_.orders.contains(order_)) return Rgb();
   const std::optional<LitPoint> lit = sample_lit_point();
-  if (!lit) return;
+  if (!lit) return Rgb();
   const std::optional<LitView> view = look_at(*lit, *vertex_);
-  if (!view || is_black(view->light)) return;
+  if (!view || is_black(view->light)) return Rgb();
   const LegStart start = start_of_leg(*vertex_, t_vertex_, vertex_->pdf(view->w), false);
   const TailDensities densities = surface_tail_densities(
       *rules_.connections, leg_, start, view->y, view->distance, view->end);
-  add(beta_ * vertex_->eval(view->w) * view->light * densities.weight(densities.lit));
+  return beta_ * vertex_->eval(view->w) * view->light * densities.weight(densities.lit);
 }
 
 }  // namespace tyndall

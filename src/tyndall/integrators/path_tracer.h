@@ -15,10 +15,15 @@ class PathTracer : public Integrator {
              const ConnectionSettings& connections);
 
   PathSample Li(const Ray& ray, Sampler& sampler) const override;
+  uint32_t prepare(uint32_t first) override;
+  void report(RenderStatistics& statistics) const override;
 
  private:
   const Scene& scene_;
+  float pilot_radiance(const RenderSettings& settings) const;
+
   std::optional<ConnectionContext> connections_;
+  std::optional<ConnectionBudget> budget_;
   PathRules rules_;
 };
 
