@@ -50,7 +50,7 @@ TEST(ResultsTest, SurviveTheFile) {
   const std::string text = to_json(example());
   const Results back = results_from_json(text);
   EXPECT_EQ(to_json(back), text);
-  const Run& run = back.scenes.at(0).methods.at(0).runs.at(0);
+  const app::Run& run = back.scenes.at(0).methods.at(0).runs.at(0);
   EXPECT_EQ(run.paths, int64_t{1} << 40);
   EXPECT_EQ(run.checkpoints.at(1).rel_mse, 0.02);
   EXPECT_EQ(run.bias->tiles, 7);
@@ -79,8 +79,8 @@ TEST(ResultsTest, SayWhatIsWrong) {
 }
 
 TEST(EfficiencyTest, RatioIsOfGeometricMeans) {
-  const std::vector<Run> slow = {run_of(0.4, 10), run_of(0.1, 10)};
-  const std::vector<Run> fast = {run_of(0.1, 5), run_of(0.025, 5)};
+  const std::vector<app::Run> slow = {run_of(0.4, 10), run_of(0.1, 10)};
+  const std::vector<app::Run> fast = {run_of(0.1, 5), run_of(0.025, 5)};
   const auto ratio = cost_ratio(fast, slow, cost_in_time);
   ASSERT_TRUE(ratio);
   EXPECT_NEAR(ratio->ratio, 8, 1e-12);  // 0.2 * 10 / (0.05 * 5)
@@ -93,8 +93,9 @@ TEST(EfficiencyTest, RatioIsOfGeometricMeans) {
 }
 
 TEST(EfficiencyTest, IsEmptyWhereThereIsNoRatio) {
-  const std::vector<Run> one = {run_of(0.4, 10)}, two = {run_of(0.4, 10), run_of(0.3, 10)};
-  const std::vector<Run> exact = {run_of(0, 10), run_of(0, 10)};
+  const std::vector<app::Run> one = {run_of(0.4, 10)},
+                              two = {run_of(0.4, 10), run_of(0.3, 10)};
+  const std::vector<app::Run> exact = {run_of(0, 10), run_of(0, 10)};
   EXPECT_FALSE(cost_ratio(one, two, cost_in_time));
   EXPECT_FALSE(cost_ratio(two, exact, cost_in_time));
 }
@@ -104,7 +105,7 @@ TEST(EfficiencyTest, IntervalHoldsOneForTheSameMethod) {
   std::mt19937 random(1);
   std::normal_distribution<double> noise(0, 0.3);
   const auto runs = [&] {
-    std::vector<Run> result;
+    std::vector<app::Run> result;
     for (int i = 0; i < 5; ++i) result.push_back(run_of(std::exp(noise(random)), 30));
     return result;
   };
@@ -126,7 +127,7 @@ TEST(EfficiencyTest, StudentQuantilesAreTheTables) {
 
 /// Error 1 / t times `factor` at 1, 2, 4, ... seconds.
 Run halving_run(double factor, int count) {
-  Run run;
+  app::Run run;
   for (int i = 0; i < count; ++i) {
     const double t = std::exp2(i);
     run.checkpoints.push_back({t, static_cast<uint32_t>(10 * t), 0, factor / t, 0});
@@ -151,7 +152,7 @@ TEST(ErrorCurveTest, AveragesSeedsWhereAllHaveCheckpoints) {
 }
 
 TEST(ErrorCurveTest, TakesRunsWithoutUsableCheckpoints) {
-  Method method{"m", "m", {}, {halving_run(1, 1), Run{}}};
+  Method method{"m", "m", {}, {halving_run(1, 1), app::Run{}}};
   method.runs[1].checkpoints = {{1, 1, 0, 0, 0}, {2, 2, 0, std::nan(""), 0}};
   EXPECT_TRUE(error_curve(method, CurveAxis::seconds).points.empty());
   EXPECT_EQ(svg_plot({error_curve(method, CurveAxis::seconds)}, "seconds", 0),

@@ -36,12 +36,8 @@ INSTANTIATE_TEST_SUITE_P(
                                 {FilterKind::mitchell, {2, 3}, 0.5f, 0, 0.5f}}),
     [](const auto& test) { return std::string(test.param.name); });
 
-double one(double) {
-  return 1;
-}
-double square(double x) {
-  return x * x;
-}
+double one(double) { return 1; }
+double square(double x) { return x * x; }
 
 double FilterTest::integral(const Filter& filter, bool with_sign,
                             double (*g)(double)) const {

@@ -113,7 +113,8 @@ class Picture {
 
   paintError(pixels, view, reference) {
     const relative = view.show === 'relative', epsilon = this.scene.epsilon;
-    const colors = colorTable(256, relative ? inferno : t => blueWhiteRed(2 * t - 1));
+    const last = 254;  // even, so that white has the middle of blue to red
+    const colors = colorTable(last + 1, relative ? inferno : t => blueWhiteRed(2 * t - 1));
     const value = this.scene.radiance, factor = Math.pow(2, view.exposure);
     for (let i = 0; i < pixels.length; ++i) {
       let sum = 0;
@@ -122,7 +123,7 @@ class Picture {
         sum += relative ? d * d / (r * r + epsilon) : d * factor;
       }
       const t = relative ? (Math.log10(sum / 3) + 4) / 5 : 0.5 + sum / 3;
-      pixels[i] = Number.isNaN(sum) ? 0xffff00ff : colors[Math.round(clamp(t, 0, 1) * 255)];
+      pixels[i] = Number.isNaN(sum) ? 0xffff00ff : colors[Math.round(clamp(t, 0, 1) * last)];
     }
   }
 }

@@ -16,9 +16,7 @@
 namespace tyndall {
 namespace {
 
-double mean_of_channels(Rgb a) {
-  return (double{a.r} + double{a.g} + double{a.b}) / 3;
-}
+double mean_of_channels(Rgb a) { return (double{a.r} + double{a.g} + double{a.b}) / 3; }
 
 /// The sum over the channels of f(x, r), divided by three.
 template <typename F>
