@@ -135,6 +135,12 @@ TEST_F(SharedVolumes, MissingNamesAreAnsweredWithThoseFound) {
   }
 }
 
+TEST_F(SharedVolumes, TheOnlyGridNeedsNoName) {
+  const PlacedGrid read =
+      read_volume(shared / "data/vdb/fvdb_smoke-blosc.nvdb", density_name);
+  EXPECT_FALSE(read.grid->is_empty());
+}
+
 // Every prefix of a file is an error or an empty or shorter grid, never a crash.
 TEST_F(SharedVolumes, TruncatedFilesAreErrors) {
   for (const char* name :

@@ -69,6 +69,8 @@ size_t find_grid(const std::vector<VolumeGridInfo>& grids,
           found->type, list_names(grids)));
     return static_cast<size_t>(found - grids.begin());
   }
+  const bool is_only_one = grids.size() == 1 && grids[0].name.empty() && grids[0].is_scalar;
+  if (is_only_one) return 0;
   throw std::runtime_error(fmt::format("there is no grid \"{}\"; the file has {}",
                                        names.empty() ? "" : names.front(),
                                        list_names(grids)));

@@ -31,10 +31,11 @@ struct VolumeGridInfo {
 /// Throws std::runtime_error that names the file if it cannot be read.
 std::vector<VolumeGridInfo> list_volume_grids(const std::filesystem::path& path);
 
-/// Reads the first grid of the file that has one of `names`, in their order of preference;
-/// its medium space is the file's. Inactive voxels count as zero, and so does what is
-/// negative, infinite or not a number: see BrickGrid::rejected(). Throws std::runtime_error
-/// that names the file, and the grids found if none has the name.
+/// Reads the first grid of the file that has one of `names`, in their order of preference,
+/// or its only grid if that has no name; its medium space is the file's. Inactive voxels
+/// count as zero, and so does what is negative, infinite or not a number: see
+/// BrickGrid::rejected(). Throws std::runtime_error that names the file, and the grids
+/// found if none has the name.
 PlacedGrid read_volume(const std::filesystem::path& path,
                        std::span<const std::string_view> names);
 
