@@ -18,5 +18,6 @@ int main() {
   const tyndall::RenderResult result = tyndall::render(scene, loaded.settings);
   const tyndall::Rgb L = result.film.develop().rgb(0, 0);
   std::printf("%g %g %g\n", L.r, L.g, L.b);
-  return std::abs(L.r - 0.25f) + std::abs(L.g - 0.5f) + std::abs(L.b - 0.75f) < 1e-5f ? 0 : 1;
+  return std::abs(L.r - 0.25f) + std::abs(L.g - 0.5f) + std::abs(L.b - 0.75f) < 1e-5f ? 0
+                                                                                      : 1;
 }
