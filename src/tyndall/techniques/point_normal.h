@@ -27,7 +27,8 @@ class PointNormalSampling {
     if (!(width_ > 0)) return std::nullopt;
     const float v = segment_.from_near(u);
     const float sine = std::clamp(sine_near_ + v * width_, -1.0f, 1.0f);
-    const float cosine = std::sqrt((1 - sine) * (1 + sine));
+    // 1 - sine^2, but by its change: at grazing angles it is small at either end.
+    const float cosine = safe_sqrt(sqr(cosine_near_) - v * width_ * (sine + sine_near_));
     // The sine and cosine of the way from the near end; the difference of two products is
     // expanded where it would cancel.
     const float product = sine * cosine_near_, other = cosine * sine_near_;
@@ -100,7 +101,8 @@ class PointNormalSampling {
     const float cos_near = segment_.h() / segment_.r_near();
     const float sin_near = segment_.s_near() / segment_.r_near();
     sine_near_ = std::clamp(normal_h_ * sin_near - normal_s_ * cos_near, -1.0f, 1.0f);
-    cosine_near_ = std::max(normal_h_ * cos_near + normal_s_ * sin_near, 0.0f);
+    // A little below zero where rounding has put the edge of the light behind it.
+    cosine_near_ = normal_h_ * cos_near + normal_s_ * sin_near;
     width_ = density_or_zero(sine_way(segment_.length()));
   }
 
