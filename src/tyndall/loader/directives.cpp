@@ -15,8 +15,8 @@ namespace {
 // `Camera "perspective" parameters...`; the builder's method takes both.
 template <void (SceneBuilder::*method)(const std::string&, ParameterSet)>
 void typed(Parser& in, SceneBuilder& scene) {
-  const Token directive = in.directive();
   const std::string type = in.string("a type");
+  const Token directive = in.directive();
   (scene.*method)(type, scene.parameter_set(directive, type, in.parameters()));
 }
 
@@ -79,8 +79,8 @@ void medium_interface(Parser& in, SceneBuilder& scene) {
 }
 
 void make_named(Parser& in, SceneBuilder& scene) {
-  const Token directive = in.directive();
   const std::string name = in.string("a name");
+  const Token directive = in.directive();
   ParameterSet parameters = scene.parameter_set(directive, name, in.parameters());
   if (directive.text == "MakeNamedMedium")
     scene.make_named_medium(name, std::move(parameters));
@@ -89,10 +89,10 @@ void make_named(Parser& in, SceneBuilder& scene) {
 }
 
 void texture(Parser& in, SceneBuilder& scene) {
-  const Token directive = in.directive();
   const std::string name = in.string("a name");
   const std::string kind = in.string("\"float\" or \"spectrum\"");
   const std::string type = in.string("a type");
+  const Token directive = in.directive();
   scene.texture(name, kind, type, scene.parameter_set(directive, name, in.parameters()));
 }
 
@@ -107,8 +107,8 @@ void option(Parser& in, SceneBuilder& scene) {
 }
 
 void include(Parser& in, SceneBuilder&) {
-  const Token directive = in.directive();
-  in.include(in.string("a file name"), directive.where, directive.text == "Import");
+  const std::string name = in.string("a file name");
+  in.include(name, in.directive().where, in.directive().text == "Import");
 }
 
 void active_transform(Parser& in, SceneBuilder& scene) {

@@ -28,7 +28,13 @@ size_t sequence_length(std::string_view text) {
   return length;
 }
 
-// What a terminal can show, one column per character.
+size_t columns(std::string_view printable_text) {
+  return static_cast<size_t>(std::count_if(printable_text.begin(), printable_text.end(),
+                                           [](char c) { return !is_continuation(c); }));
+}
+
+}  // namespace
+
 std::string printable(std::string_view text) {
   std::string result;
   while (!text.empty()) {
@@ -44,13 +50,6 @@ std::string printable(std::string_view text) {
   }
   return result;
 }
-
-size_t columns(std::string_view printable_text) {
-  return static_cast<size_t>(std::count_if(printable_text.begin(), printable_text.end(),
-                                           [](char c) { return !is_continuation(c); }));
-}
-
-}  // namespace
 
 std::string excerpt(std::string_view line, int line_number, size_t begin, size_t length) {
   begin = std::min(begin, line.size());

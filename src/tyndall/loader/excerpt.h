@@ -6,6 +6,10 @@
 
 namespace tyndall::loader {
 
+/// The text with control characters and broken UTF-8 as question marks, tabs as blanks: one
+/// column per character.
+std::string printable(std::string_view text);
+
 /// The source line with its number, and below it a caret at byte `begin` with tildes to the
 /// end of the `length` bytes meant. Long lines are cut to the part around the caret; what
 /// cannot be printed shows as a question mark. Two lines, no trailing newline.

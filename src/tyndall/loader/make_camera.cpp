@@ -47,14 +47,11 @@ float read_fov(ParameterSet& parameters) {
 
 CameraRequest make_camera(const std::string& type, ParameterSet& parameters,
                           const Transform& camera_from_world) {
-  if (type != "perspective") {
-    const std::vector<std::string_view> others{"orthographic", "spherical", "realistic"};
-    const bool is_known = std::find(others.begin(), others.end(), type) != others.end();
-    fail(
-        parameters.where(),
-        fmt::format("{}: {}; tyndall has \"perspective\"", parameters.owner(),
-                    is_known ? "this camera is not supported" : "there is no such camera"));
-  }
+  if (type == "orthographic" || type == "spherical" || type == "realistic")
+    fail(parameters.where(),
+         fmt::format("{}: this camera is not supported; there is \"perspective\"",
+                     parameters.owner()));
+  if (type != "perspective") parameters.fail_unknown_type("camera", type, {"perspective"});
   CameraRequest camera;
   camera.settings.world_from_camera = camera_from_world.inverse();
   camera.settings.fov = read_fov(parameters);

@@ -94,10 +94,7 @@ void read_sensor(ParameterSet& parameters, RenderSettings& settings) {
 
 void set_film(const std::string& type, ParameterSet& parameters, RenderSettings& settings) {
   if (type != "rgb" && type != "gbuffer" && type != "spectral")
-    fail(parameters.where(),
-         fmt::format(
-             "{}: there is no such film; there are \"rgb\", \"gbuffer\", \"spectral\"",
-             parameters.owner()));
+    parameters.fail_unknown_type("film", type, {"rgb", "gbuffer", "spectral"});
   if (type != "rgb")
     parameters.reporter().unsupported(
         parameters.where(),

@@ -81,7 +81,8 @@ std::optional<Light> make_distant(const LightContext& in) {
 std::optional<Light> make_picture_environment(const LightContext& in, float illuminance) {
   ParameterSet& p = in.parameters;
   const float scale = p.number("scale", 1, not_negative);
-  const std::string path = in.files.find(p.string("filename", ""), p.where("filename"));
+  const std::string path =
+      in.files.find(p.required_string("filename"), p.where("filename"));
   EnvironmentPicture picture = read_environment(path, p.where("filename"));
   const float measured = illuminance > 0 ? picture.illuminance() : 0;
   return Light(ImageEnvironment(in.world_from_light, picture.resolution,
@@ -135,17 +136,13 @@ std::optional<Light> make_light(const std::string& type, ParameterSet& parameter
     if (known.name == type) return known.make({parameters, world_from_light, files});
     names.push_back(known.name);
   }
-  fail(parameters.where(), fmt::format("{}: there is no such light; there are {}",
-                                       parameters.owner(), quoted_list(names)));
+  parameters.fail_unknown_type("light", type, names);
 }
 
 std::optional<AreaLightRequest> make_area_light(const std::string& type,
                                                 ParameterSet& parameters,
                                                 const FileFinder& files) {
-  if (type != "diffuse")
-    fail(parameters.where(),
-         fmt::format("{}: there is no such area light; there is \"diffuse\"",
-                     parameters.owner()));
+  if (type != "diffuse") parameters.fail_unknown_type("area light", type, {"diffuse"});
   if (parameters.has("filename"))
     parameters.unsupported(
         "filename", "emission pictures are not supported yet; the light shines evenly");

@@ -236,8 +236,7 @@ Material make_material(const std::string& type, ParameterSet& parameters,
     }
     if (!known.name.empty()) names.push_back(known.name);
   }
-  fail(parameters.where(), fmt::format("{}: there is no material type \"{}\"; there are {}",
-                                       parameters.owner(), type, quoted_list(names)));
+  parameters.fail_unknown_type("material", type, names);
 }
 
 }  // namespace tyndall::loader

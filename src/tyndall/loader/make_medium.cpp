@@ -166,18 +166,13 @@ constexpr std::array medium_types{
 std::optional<Medium> make_medium(ParameterSet& parameters,
                                   const Transform& world_from_medium,
                                   const FileFinder& files) {
-  if (!parameters.has("type"))
-    fail(parameters.where(),
-         fmt::format("{}: parameter \"string type\" is missing", parameters.owner()));
-  const std::string type = parameters.string("type", "");
+  const std::string type = parameters.required_string("type");
   std::vector<std::string_view> names;
   for (const MediumType& known : medium_types) {
     if (known.name == type) return known.make({parameters, world_from_medium, files});
     names.push_back(known.name);
   }
-  fail(parameters.where("type"),
-       fmt::format("{}: there is no medium type \"{}\"; there are {}", parameters.owner(),
-                   type, quoted_list(names)));
+  parameters.fail_unknown_type("medium", type, names);
 }
 
 }  // namespace tyndall::loader

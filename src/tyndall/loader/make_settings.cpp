@@ -18,8 +18,7 @@ using Names = std::vector<std::string_view>;
 void check_type(const std::string& type, const ParameterSet& parameters, const Names& names,
                 std::string_view what) {
   if (std::find(names.begin(), names.end(), type) == names.end())
-    fail(parameters.where(), fmt::format("{}: there is no such {}; there are {}",
-                                         parameters.owner(), what, quoted_list(names)));
+    parameters.fail_unknown_type(what, type, names);
 }
 
 constexpr Range at_least_one{1, infinity};

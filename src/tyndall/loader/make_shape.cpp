@@ -106,9 +106,8 @@ std::optional<Shape> make_ply(const ShapeContext& in) {
   if (p.has("displacement"))
     p.unsupported("displacement", "displacement is not supported yet, it is ignored");
   p.ignore({"displacement", "edgelength"});
-  if (!p.has("filename"))
-    fail(p.where(), fmt::format("{}: parameter \"string filename\" is missing", p.owner()));
-  const std::string path = in.files.find(p.string("filename", ""), p.where("filename"));
+  const std::string path =
+      in.files.find(p.required_string("filename"), p.where("filename"));
   try {
     PlyMesh ply = read_ply(read_bytes(path));
     if (ply.has_skipped_faces)
@@ -184,8 +183,7 @@ std::optional<Shape> make_shape(const std::string& type, ParameterSet& parameter
       return known.make({parameters, world_from_object, reverse_orientation, files});
     names.push_back(known.name);
   }
-  fail(parameters.where(), fmt::format("{}: there is no such shape; there are {}",
-                                       parameters.owner(), quoted_list(names)));
+  parameters.fail_unknown_type("shape", type, names);
 }
 
 }  // namespace tyndall::loader

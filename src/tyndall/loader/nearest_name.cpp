@@ -29,15 +29,24 @@ size_t edit_distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
+// A name that is cut short, or goes on, is near.
+size_t distance_to(std::string_view name, std::string_view candidate) {
+  const size_t distance = edit_distance(name, candidate);
+  const bool is_part = std::min(name.size(), candidate.size()) >= 3 &&
+                       (candidate.starts_with(name) || name.starts_with(candidate));
+  return is_part ? std::min<size_t>(distance, 2) : distance;
+}
+
 }  // namespace
 
 std::string did_you_mean(std::string_view name,
                          const std::vector<std::string_view>& names) {
-  if (name.size() > 64) return {};
+  constexpr size_t longest = 64;  // of a name that can be a misspelling
+  if (name.size() > longest) return {};
   std::string_view best;
-  size_t best_distance = std::max<size_t>(name.size() / 3, 2) + 1;
+  size_t best_distance = (name.size() <= 3 ? 1 : std::max<size_t>(name.size() / 3, 2)) + 1;
   for (const std::string_view candidate : names) {
-    const size_t distance = edit_distance(name, candidate);
+    const size_t distance = distance_to(name, candidate);
     if (distance >= best_distance || distance >= candidate.size()) continue;
     best = candidate;
     best_distance = distance;

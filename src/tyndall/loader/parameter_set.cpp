@@ -150,6 +150,16 @@ std::string ParameterSet::string(std::string_view name, std::string otherwise) {
   return parameter->strings[0];
 }
 
+std::string ParameterSet::required_string(std::string_view name) {
+  asked_.push_back(name);
+  for (Parameter& p : parameters_) p.is_used = p.is_used || p.name == name;
+  const Parameter* parameter = look_up(name);
+  if (parameter && parameter->strings.size() == 1) return parameter->strings[0];
+  if (!has(name))
+    fail(where_, fmt::format("{}: parameter \"string {}\" is missing", owner_, name));
+  fail(where(name), fmt::format("{}: parameter \"{}\" must be one string", owner_, name));
+}
+
 std::optional<Vec3> ParameterSet::point3(std::string_view name) {
   const std::vector<Vec3> values = points3(name);
   if (values.empty() || !has_one_value(*look_up(name), values.size())) return std::nullopt;
@@ -194,6 +204,14 @@ void ParameterSet::error(std::string_view name, std::string_view message) const 
 
 void ParameterSet::unsupported(std::string_view name, std::string_view message) const {
   reporter_->unsupported(where(name), fmt::format("{}: {}", owner_, message));
+}
+
+void ParameterSet::fail_unknown_type(std::string_view what, std::string_view type,
+                                     const std::vector<std::string_view>& names) const {
+  const std::string nearest = did_you_mean(type, names);
+  fail(where("type"),
+       fmt::format("{}: there is no such {}{}", owner_, what,
+                   nearest.empty() ? "; there is " + quoted_list(names) : nearest));
 }
 
 void ParameterSet::ignore(std::initializer_list<std::string_view> names) {

@@ -44,6 +44,8 @@ class ParameterSet {
   int integer(std::string_view name, int otherwise, Range range = any_number);
   bool boolean(std::string_view name, bool otherwise);
   std::string string(std::string_view name, std::string otherwise);
+  /// A string that must be given. Throws Failure if it is not.
+  std::string required_string(std::string_view name);
   std::optional<Vec3> point3(std::string_view name);
 
   std::vector<float> numbers(std::string_view name);
@@ -62,6 +64,11 @@ class ParameterSet {
   void ignore_all();
   /// Reports parameters that nobody asked for. Call once, at the end.
   void report_unknown();
+
+  /// Throws Failure: the directive or its parameter "type" asks for a `what` that is none
+  /// of `names`.
+  [[noreturn]] void fail_unknown_type(std::string_view what, std::string_view type,
+                                      const std::vector<std::string_view>& names) const;
 
   const std::string& owner() const { return owner_; }
   Span where() const { return where_; }

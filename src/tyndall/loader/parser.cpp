@@ -111,6 +111,8 @@ void Parser::read_numbers(float* values, size_t count) {
 std::string Parser::string(std::string_view what) {
   const Token token = tokenizer().next();
   if (token.kind != TokenKind::string) fail_at(token, fmt::format("{} in quotes", what));
+  directive_.where.end = token.where.end;
+  builder_.set_directive(directive_.where);
   return unescape(token);
 }
 

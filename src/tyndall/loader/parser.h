@@ -25,7 +25,7 @@ class SceneBuilder;
 class Parser {
  public:
   static constexpr int max_depth = 64;                  ///< of inclusion
-  static constexpr size_t max_files = size_t{1} << 20;  ///< inclusions in all
+  static constexpr size_t max_files = size_t{1} << 18;  ///< inclusions in all
 
   Parser(SourceLibrary& sources, const FileFinder& files, Reporter& reporter,
          SceneBuilder& builder)
@@ -40,7 +40,7 @@ class Parser {
 
   // What directives are made of. All throw Failure if the text is not as expected.
 
-  /// The directive being read.
+  /// The directive being read; its place grows by the names and types that follow it.
   const Token& directive() const { return directive_; }
   float number();
   /// N numbers, with or without brackets around them.

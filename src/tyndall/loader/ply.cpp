@@ -131,7 +131,10 @@ void read_vertices(const PlyElement& element, PlyValues& values, PlyMesh& mesh) 
 
 size_t read_list_count(const PlyProperty& list, PlyValues& values) {
   const double count = values.next(list.count_type);
-  if (!(count >= 0 && count <= static_cast<double>(values.bytes_left())))
+  if (!(count >= 0))
+    throw std::runtime_error(
+        fmt::format("the PLY data have a list \"{}\" of {} values", list.name, count));
+  if (count > static_cast<double>(values.bytes_left()))
     throw std::runtime_error(fmt::format(
         "the PLY data end too early: a list \"{}\" announces {} values", list.name, count));
   return static_cast<size_t>(count);

@@ -9,19 +9,33 @@
 
 namespace tyndall::loader {
 
+// The chain of files that a text was included by; only its ends if it is long.
+std::string Reporter::inclusion_notes(uint32_t source) const {
+  constexpr int shown_from_start = 4;
+  std::string notes;
+  int depth = sources_[source].depth;
+  const int first_hidden = depth - shown_from_start;
+  for (auto from = sources_[source].included_at; from; --depth) {
+    const SourceLocation place = sources_.locate(*from);
+    if (depth > first_hidden || depth == 1)
+      notes += fmt::format("\n{}:{}:{}: note: included from here", place.file, place.line,
+                           place.column);
+    else if (depth == first_hidden)
+      notes += fmt::format("\nnote: included through {} more files", first_hidden - 1);
+    from = sources_[from->source].included_at;
+  }
+  return notes;
+}
+
 Diagnostic Reporter::diagnostic(Severity severity, Span where, std::string message) const {
   const SourceLocation at = sources_.locate(where);
+  message = printable(message);
   std::string text =
       fmt::format("{}:{}:{}: {}: {}\n{}", at.file, at.line, at.column,
                   severity == Severity::error ? "error" : "warning", message,
                   excerpt(sources_.line(where), at.line, static_cast<size_t>(at.column - 1),
                           where.end - where.begin));
-  for (auto from = sources_[where.source].included_at; from;
-       from = sources_[from->source].included_at) {
-    const SourceLocation place = sources_.locate(*from);
-    text += fmt::format("\n{}:{}:{}: note: included from here", place.file, place.line,
-                        place.column);
-  }
+  text += inclusion_notes(where.source);
   return {severity, at, std::move(message), std::move(text)};
 }
 

@@ -45,6 +45,7 @@ class Reporter {
   const SourceLibrary& sources() const { return sources_; }
 
  private:
+  std::string inclusion_notes(uint32_t source) const;
   Diagnostic diagnostic(Severity severity, Span where, std::string message) const;
 
   const SourceLibrary& sources_;

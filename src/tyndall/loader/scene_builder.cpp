@@ -44,10 +44,12 @@ std::string_view attribute_target(std::string_view directive) {
 void SceneBuilder::enter(Phase phase, const Token& directive) {
   directive_ = directive.where;
   if (phase == Phase::before_world && is_in_world_)
-    fail(directive.where, fmt::format("{} must stand before WorldBegin", directive.text));
-  if (phase == Phase::in_world && !is_in_world_) {
-    is_in_world_ = true;  // say it once
-    world_begin_ = directive.where;
+    fail(directive.where,
+         directive.text == "WorldBegin"
+             ? "WorldBegin stands twice"
+             : fmt::format("{} must stand before WorldBegin", directive.text));
+  if (phase == Phase::in_world && !is_in_world_ && !is_world_missed_) {
+    is_world_missed_ = true;  // said once, not for each shape
     reporter_.error(directive.where,
                     fmt::format("{} must stand after WorldBegin", directive.text));
   }

@@ -29,6 +29,8 @@ class SceneBuilder {
 
   /// Called before each directive. Throws Failure if it may not stand here.
   void enter(Phase phase, const Token& directive);
+  /// Where messages about the directive in hand point to.
+  void set_directive(Span where) { directive_ = where; }
   /// The scene, once all is read. Names that were used before their definition are looked
   /// up here. `end` is where the scene file ends.
   LoadedScene finish(Span end);
@@ -122,6 +124,7 @@ class SceneBuilder {
   Reporter& reporter_;
   Span directive_;  // the one being carried out
   bool is_in_world_ = false;
+  bool is_world_missed_ = false;  // a directive of the world stood before it
 
   GraphicsState state_;
   std::vector<Saved> saved_;

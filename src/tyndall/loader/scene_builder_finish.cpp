@@ -80,7 +80,8 @@ std::vector<ObjectInstance> SceneBuilder::resolved_instances() {
 void SceneBuilder::check_complete(Span end) {
   for (const Saved& saved : saved_)
     reporter_.error(saved.where, "this scope is never ended");
-  if (!is_in_world_) reporter_.error(end, "the scene has no WorldBegin");
+  if (!is_in_world_ && !is_world_missed_)
+    reporter_.error(end, "the scene has no WorldBegin");
 }
 
 void SceneBuilder::check_lights(const SceneDescription& scene, Span end) {

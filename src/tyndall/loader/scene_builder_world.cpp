@@ -27,10 +27,7 @@ void SceneBuilder::medium_interface(const std::string& inside, const std::string
 void SceneBuilder::make_named_material(const std::string& name, ParameterSet parameters) {
   if (!materials_.emplace(name, DiffuseBsdf{Rgb(0.5f)}).second)
     fail(directive_, fmt::format("there is already a material named \"{}\"", name));
-  if (!parameters.has("type"))
-    fail(directive_,
-         fmt::format("{}: parameter \"string type\" is missing", parameters.owner()));
-  const std::string type = parameters.string("type", "");
+  const std::string type = parameters.required_string("type");
   materials_[name] = make_material(type, parameters, textures_, materials_);
   parameters.report_unknown();
 }

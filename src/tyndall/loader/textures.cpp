@@ -39,9 +39,9 @@ Rgb mean_color(const Image& image) {
           static_cast<float>(sum[2] / count)};
 }
 
-const std::vector<std::string_view> varying_types{"imagemap", "bilerp", "checkerboard",
-                                                  "dots",     "fbm",    "marble",
-                                                  "ptex",     "windy",  "wrinkled"};
+const std::vector<std::string_view> texture_types{
+    "constant", "scale", "mix",    "directionmix", "imagemap", "bilerp",  "checkerboard",
+    "dots",     "fbm",   "marble", "ptex",         "windy",    "wrinkled"};
 
 }  // namespace
 
@@ -64,8 +64,11 @@ void TextureTable::make(const std::string& name, const std::string& kind,
 std::optional<Rgb> TextureTable::operand(ParameterSet& parameters, std::string_view name,
                                          bool is_float) const {
   if (auto textured = value(parameters, name, is_float)) return textured;
-  if (!parameters.has(name)) return std::nullopt;
-  if (is_float) return Rgb(parameters.number(name, 0));
+  if (is_float) {
+    const bool is_given = parameters.has(name);
+    const Rgb number(parameters.number(name, 0));
+    return is_given ? std::optional(number) : std::nullopt;
+  }
   return spectrum_parameter(parameters, name, SpectrumUse::coefficient, files_);
 }
 
@@ -80,12 +83,9 @@ Rgb TextureTable::mean(const std::string& type, ParameterSet& parameters, bool i
     const float amount = type == "mix" ? number(parameters, "amount", 0.5f) : 0.5f;
     return get("tex1", 0) * (1 - amount) + get("tex2", 1) * amount;
   }
-  if (std::find(varying_types.begin(), varying_types.end(), type) == varying_types.end())
-    fail(parameters.where(),
-         fmt::format(
-             "{}: there is no texture type \"{}\"; there are \"constant\", \"scale\", "
-             "\"mix\", \"directionmix\", {}",
-             parameters.owner(), type, quoted_list(varying_types)));
+  const auto& known = texture_types;
+  if (std::find(known.begin(), known.end(), type) == known.end())
+    parameters.fail_unknown_type("texture", type, known);
   parameters.reporter().unsupported(
       parameters.where(),
       fmt::format("{}: textures of type \"{}\" are not supported yet, the mean is used",
@@ -101,11 +101,9 @@ Rgb TextureTable::mean(const std::string& type, ParameterSet& parameters, bool i
 }
 
 Rgb TextureTable::mean_of_picture(ParameterSet& parameters) const {
-  if (!parameters.has("filename"))
-    fail(parameters.where(),
-         fmt::format("{}: parameter \"string filename\" is missing", parameters.owner()));
+  const std::string name = parameters.required_string("filename");
   const Span where = parameters.where("filename");
-  const std::string path = files_.find(parameters.string("filename", ""), where);
+  const std::string path = files_.find(name, where);
   Rgb result = unknown_mean;
   try {
     result = mean_color(read_image(path));
