@@ -2,7 +2,7 @@
 // How errors and warnings come out. What they say is asserted by the corpus in tests/fuzz.
 #include <gtest/gtest.h>
 
-#include <chrono>
+#include <ctime>
 
 #include "parse.h"
 
@@ -100,10 +100,10 @@ TEST(LoadErrorsTest, AFileThatCannotBeReadIsNoSceneError) {
 TEST(LoadErrorsTest, ManyDirectivesOnOneLine) {
   std::string world;
   for (int i = 0; i < 100000; ++i) world += "AttributeBegin Shape \"sphere\" AttributeEnd ";
-  const auto start = std::chrono::steady_clock::now();
+  const std::clock_t start = std::clock();
   EXPECT_EQ(test::parse_world(world).scene.surfaces.size(), 100000u);
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  EXPECT_LT(seconds.count(), 10);
+  EXPECT_LT(std::clock() - start,
+            10 * CLOCKS_PER_SEC);  // a tenth of a second; a square: hours
 }
 
 }  // namespace

@@ -2,9 +2,9 @@
 // Whole scenes: those that the project is measured by, and those of other people.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <set>
 #include <sstream>
 
 #include "parse.h"
@@ -56,7 +56,7 @@ TEST(WildScenesTest, Load) {
 // Why a file that pbrt-v4's formatter accepts may be refused: files that are not there;
 // what pbrt-v4 itself refuses when it renders; black pictures; and the one camera we lack.
 bool is_excusable(const Diagnostic& error) {
-  const std::set<std::string> messages{
+  const std::vector<std::string> messages{
       "the scene has no lights: the picture would be black",
       "Camera \"orthographic\": this camera is not supported; there is \"perspective\"",
       "Integrator \"toon\": there is no such integrator",
@@ -68,7 +68,9 @@ bool is_excusable(const Diagnostic& error) {
   const bool is_missing_file = error.message.starts_with("cannot read \"") &&
                                error.message.ends_with("\": No such file or directory");
   return is_missing_file ||
-         messages.count(error.message.substr(0, error.message.find("; did")));
+         std::any_of(messages.begin(), messages.end(), [&](const std::string& message) {
+           return error.message.starts_with(message);
+         });
 }
 
 struct Expectation {

@@ -11,7 +11,8 @@ constexpr float area_tolerance = 1e-4f;  // relative; below it pieces count as e
 
 AreaEmission emission_of(const AreaLightRequest& light, float area) {
   const float k = (light.two_sided ? 2 : 1) * pi * area;
-  return {k > 0 ? light.L * (light.power / k) : Rgb{}, light.two_sided};
+  const Rgb L = light.L * (light.power / k);
+  return {is_finite(L) ? L : Rgb{}, light.two_sided};  // not so without area
 }
 
 // Precondition: not empty.

@@ -25,8 +25,14 @@ Rgb read_color(const LightContext& in, std::string_view name) {
   const Rgb color =
       spectrum_parameter(in.parameters, name, SpectrumUse::illuminant, in.files)
           .value_or(Rgb(1));
-  return color * in.parameters.number("scale", 1, not_negative);
+  const Rgb scaled = color * in.parameters.number("scale", 1, not_negative);
+  if (is_finite(scaled)) return scaled;
+  in.parameters.error(name, fmt::format("\"{}\" times \"scale\" is too large", name));
+  return color;
 }
+
+// The unit vector along `v`, whatever its length. Precondition: finite, not zero.
+Vec3 direction(Vec3 v) { return normalize(v / max_component(abs(v))); }
 
 // What is asked for in lumens or lux, or zero.
 float read_photometric(ParameterSet& parameters, std::string_view name) {
@@ -45,7 +51,7 @@ std::optional<Light> make_point(const LightContext& in) {
 Vec3 read_axis(ParameterSet& parameters, Vec3 from) {
   const Vec3 to = parameters.point3("to").value_or(Vec3{0, 0, 1});
   const Vec3 axis = to - from;
-  if (length(axis) > 0 && std::isfinite(length(axis))) return axis;
+  if (axis != Vec3{} && is_finite(axis)) return axis;
   parameters.error(
       "to", fmt::format("\"from\" and \"to\" must be two points, both are {} {} {}", to.x,
                         to.y, to.z));
@@ -65,7 +71,7 @@ std::optional<Light> make_spot(const LightContext& in) {
   const float k = 2 * pi * ((1 - cos_start) + (cos_start - cos_total) / 2);
   if (power > 0 && k > 0) I *= power / k;
   return Light(SpotLight{in.world_from_light.point(from),
-                         normalize(in.world_from_light.vector(axis)), I, cos_total,
+                         direction(in.world_from_light.vector(axis)), I, cos_total,
                          cos_start});
 }
 
@@ -75,7 +81,7 @@ std::optional<Light> make_distant(const LightContext& in) {
   const Vec3 axis = read_axis(in.parameters, from);
   const float illuminance = read_photometric(in.parameters, "illuminance");
   if (illuminance > 0) L *= illuminance;
-  return Light(DistantLight{normalize(in.world_from_light.vector(-axis)), L});
+  return Light(DistantLight{direction(in.world_from_light.vector(-axis)), L});
 }
 
 std::optional<Light> make_picture_environment(const LightContext& in, float illuminance) {

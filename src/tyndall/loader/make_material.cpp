@@ -166,10 +166,8 @@ Material make_measured(const MaterialContext& in) {
 const Material* find_named(const MaterialContext& in, const std::string& name) {
   const auto found = in.named.find(name);
   if (found != in.named.end()) return &found->second;
-  std::vector<std::string_view> names;
-  for (const auto& entry : in.named) names.push_back(entry.first);
   in.parameters.error("materials", fmt::format("there is no material named \"{}\"{}", name,
-                                               did_you_mean(name, names)));
+                                               did_you_mean(name, keys_of(in.named))));
   return nullptr;
 }
 

@@ -48,7 +48,9 @@ MediumProperties read_properties(const MediumContext& in, const MediumPreset& ot
       coefficient("sigma_s", preset ? preset->sigma_s : Rgb{}, otherwise.sigma_s) * scale;
   const Rgb Le =
       spectrum_parameter(p, "Le", SpectrumUse::illuminant, in.files).value_or(Rgb{});
-  return {sigma_a, sigma_s, Le};
+  if (is_finite(sigma_a + sigma_s)) return {sigma_a, sigma_s, Le};
+  p.error("scale", "the coefficients times \"scale\" are too large");
+  return {Rgb{}, Rgb{}, Le};
 }
 
 PhaseFunction read_phase_function(ParameterSet& parameters) {

@@ -11,6 +11,14 @@ namespace tyndall::loader {
 /// similar enough to be meant.
 std::string did_you_mean(std::string_view name, const std::vector<std::string_view>& names);
 
+/// The keys of a map from names.
+template <typename Map>
+std::vector<std::string_view> keys_of(const Map& map) {
+  std::vector<std::string_view> keys;
+  for (const auto& entry : map) keys.push_back(entry.first);
+  return keys;
+}
+
 /// The names in quotes, with commas between.
 std::string quoted_list(const std::vector<std::string_view>& names);
 

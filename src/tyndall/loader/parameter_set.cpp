@@ -99,15 +99,13 @@ Span ParameterSet::where(std::string_view name) const {
 
 Parameter* ParameterSet::find(std::string_view name,
                               std::initializer_list<ParameterType> types) {
-  asked_.push_back(name);
-  auto* parameter = const_cast<Parameter*>(look_up(name));
-  if (!parameter) return nullptr;
-  // Further ones of the same name are shadowed, as in pbrt-v4.
-  for (Parameter& p : parameters_) p.is_used = p.is_used || p.name == name;
-  if (std::find(types.begin(), types.end(), parameter->type) != types.end())
-    return parameter;
+  ignore({name});  // further ones of the same name are shadowed, as in pbrt-v4
+  const auto found = std::find_if(parameters_.begin(), parameters_.end(),
+                                  [&](const Parameter& p) { return p.name == name; });
+  if (found == parameters_.end()) return nullptr;
+  if (std::find(types.begin(), types.end(), found->type) != types.end()) return &*found;
   error(name, fmt::format("parameter \"{}\" must be of type {}, not \"{}\"", name,
-                          alternatives(types), name_of(parameter->type)));
+                          alternatives(types), name_of(found->type)));
   return nullptr;
 }
 
@@ -151,8 +149,7 @@ std::string ParameterSet::string(std::string_view name, std::string otherwise) {
 }
 
 std::string ParameterSet::required_string(std::string_view name) {
-  asked_.push_back(name);
-  for (Parameter& p : parameters_) p.is_used = p.is_used || p.name == name;
+  ignore({name});
   const Parameter* parameter = look_up(name);
   if (parameter && parameter->strings.size() == 1) return parameter->strings[0];
   if (!has(name))

@@ -57,7 +57,6 @@ void Parser::step() {
     fail(directive_.where,
          fmt::format("unknown directive \"{}\"{}", directive_.text.substr(0, 40),
                      did_you_mean(directive_.text, directive_names())));
-  seen_.insert(known->name);
   builder_.enter(known->phase, directive_);
   known->read(*this, builder_);
 }

@@ -5,7 +5,6 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,9 +33,6 @@ class Parser {
   /// Reads the source and all that it includes. Throws SceneError if there are too many
   /// errors.
   void run(uint32_t source);
-
-  /// Whether the directive of that name was met, in whatever state.
-  bool has_seen(std::string_view directive) const { return seen_.count(directive) > 0; }
 
   // What directives are made of. All throw Failure if the text is not as expected.
 
@@ -85,7 +81,6 @@ class Parser {
   SceneBuilder& builder_;
   std::vector<Input> inputs_;  // the last is being read
   Token directive_{};
-  std::set<std::string_view> seen_;
   std::map<std::string, std::shared_ptr<const std::string>> texts_;  // by path
 };
 

@@ -4,20 +4,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "tyndall/loader/nearest_name.h"
 
 namespace tyndall::loader {
 namespace {
-
-template <typename Value>
-std::vector<std::string_view> names_of(
-    const std::map<std::string, Value, std::less<>>& entries) {
-  std::vector<std::string_view> names;
-  for (const auto& [name, value] : entries) names.push_back(name);
-  return names;
-}
 
 bool is_finite(const Matrix4& m) {
   for (const auto& row : m)
@@ -90,7 +84,7 @@ void SceneBuilder::coordinate_system_transform(const std::string& name) {
   const auto found = coordinate_systems_.find(name);
   if (found == coordinate_systems_.end())
     fail(directive_, fmt::format("there is no coordinate system named \"{}\"{}", name,
-                                 did_you_mean(name, names_of(coordinate_systems_))));
+                                 did_you_mean(name, keys_of(coordinate_systems_))));
   if (state_.moves_start) state_.ctm = found->second;
 }
 
@@ -137,6 +131,7 @@ void SceneBuilder::begin_import() { save(Scope::import); }
 void SceneBuilder::end_import() {
   while (!saved_.empty() && saved_.back().scope != Scope::import) {
     reporter_.error(saved_.back().where, "this scope is not ended in its file");
+    if (saved_.back().scope == Scope::object) is_in_object_ = false;
     saved_.pop_back();
   }
   restore(Scope::import, "Import");
@@ -145,7 +140,8 @@ void SceneBuilder::end_import() {
 void SceneBuilder::object_begin(const std::string& name) {
   if (is_in_object_) fail(directive_, "an object cannot be defined within an object");
   if (!objects_by_name_.emplace(name, objects_.size()).second)
-    fail(directive_, fmt::format("there is already an object named \"{}\"", name));
+    reporter_.error(directive_,
+                    fmt::format("there is already an object named \"{}\"", name));
   save(Scope::object);
   is_in_object_ = true;
   objects_.emplace_back();

@@ -8,17 +8,6 @@
 #include "tyndall/loader/scene_builder.h"
 
 namespace tyndall::loader {
-namespace {
-
-template <typename Value>
-std::vector<std::string_view> names_of(
-    const std::map<std::string, Value, std::less<>>& entries) {
-  std::vector<std::string_view> names;
-  for (const auto& [name, value] : entries) names.push_back(name);
-  return names;
-}
-
-}  // namespace
 
 // A name that does not exist is reported once, where it is brought in, not for each shape.
 bool SceneBuilder::is_first_report(Span where) {
@@ -31,7 +20,7 @@ int SceneBuilder::medium_index(const std::string& name, Span where) {
   if (found != media_by_name_.end()) return found->second;
   if (is_first_report(where))
     reporter_.error(where, fmt::format("there is no medium named \"{}\"{}", name,
-                                       did_you_mean(name, names_of(media_by_name_))));
+                                       did_you_mean(name, keys_of(media_by_name_))));
   return no_medium;
 }
 
@@ -42,7 +31,7 @@ Material SceneBuilder::resolved(const MaterialReference& reference) {
   if (is_first_report(reference.where))
     reporter_.error(reference.where,
                     fmt::format("there is no material named \"{}\"{}", reference.name,
-                                did_you_mean(reference.name, names_of(materials_))));
+                                did_you_mean(reference.name, keys_of(materials_))));
   return reference.material;
 }
 
@@ -72,7 +61,7 @@ std::vector<ObjectInstance> SceneBuilder::resolved_instances() {
       reporter_.error(
           instance.where,
           fmt::format("there is no object named \"{}\"{}", instance.object,
-                      did_you_mean(instance.object, names_of(objects_by_name_))));
+                      did_you_mean(instance.object, keys_of(objects_by_name_))));
   }
   return instances;
 }

@@ -14,13 +14,6 @@
 namespace tyndall::loader {
 namespace {
 
-std::vector<std::string_view> names_of(
-    const std::map<std::string, Rgb, std::less<>>& entries) {
-  std::vector<std::string_view> names;
-  for (const auto& [name, value] : entries) names.push_back(name);
-  return names;
-}
-
 constexpr Rgb unknown_mean{0.5f, 0.5f, 0.5f};
 
 Rgb mean_color(const Image& image) {
@@ -131,7 +124,7 @@ std::optional<Rgb> TextureTable::value(ParameterSet& parameters, std::string_vie
   if (found != table.end()) return found->second;
   parameters.error(name, fmt::format("there is no {} texture named \"{}\"{}",
                                      is_float ? "float" : "spectrum", parameter->strings[0],
-                                     did_you_mean(parameter->strings[0], names_of(table))));
+                                     did_you_mean(parameter->strings[0], keys_of(table))));
   return unknown_mean;
 }
 
