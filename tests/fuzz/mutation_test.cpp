@@ -31,8 +31,8 @@ constexpr std::array<std::string_view, 24> fragments{"\"",
                                                      "ObjectBegin \"a\" ",
                                                      "ObjectEnd ",
                                                      "WorldBegin ",
-                                                     "Include \"good_part.pbrt\" ",
-                                                     "Import \"includes_itself.pbrt\" ",
+                                                     "Include \"good_part.scene\" ",
+                                                     "Import \"includes_itself.scene\" ",
                                                      "Shape \"sphere\" ",
                                                      "\"float radius\" ",
                                                      "\"rgb L\" ",
@@ -81,8 +81,8 @@ class Mutator {
 TEST(MutationTest, ScenesNeverCrash) {
   Mutator mutator;
   size_t loaded = 0, refused = 0;
-  const std::string name = (test::corpus_folder / "mutated.pbrt").string();
-  for (const auto& path : test::corpus(".pbrt")) {
+  const std::string name = (test::corpus_folder / "mutated.scene").string();
+  for (const auto& path : test::corpus(".scene")) {
     const std::string original = test::contents(path);
     const int rounds = path.stem() == "good_world" ? 1500 : 60;
     for (int i = 0; i < rounds; ++i) {

@@ -29,7 +29,7 @@ std::string without(std::string text, const std::string& part) {
 }
 
 TEST(CorpusTest, EachSceneGetsItsMessages) {
-  const std::vector<std::filesystem::path> scenes = test::corpus(".pbrt");
+  const std::vector<std::filesystem::path> scenes = test::corpus(".scene");
   EXPECT_GE(scenes.size(), 40u);
   for (std::filesystem::path path : scenes) {
     const std::string messages =
