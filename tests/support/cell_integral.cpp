@@ -14,7 +14,7 @@ constexpr int min_depth =
     2;  // a jump that clips a corner between the nodes shows only when refined
 constexpr int max_depth = 24;
 constexpr int max_cells = 20'000;
-constexpr double absolute_tolerance = 1e-7;
+constexpr double absolute_tolerance = 1e-8;
 constexpr double relative_tolerance = 1e-4;  // above the rounding of float densities
 
 // Gauss-Legendre with three nodes a side, exact for polynomials of degree five.
