@@ -94,13 +94,14 @@ struct Rendered {
   std::vector<double> pixels;  // mean over the renders
 };
 
-Rendered render_batches(LoadedScene loaded, const std::string& integrator) {
+Rendered render_batches(LoadedScene loaded, const std::string& integrator,
+                        uint64_t first_seed, uint32_t samples) {
   loaded.settings.integrator = integrator;
-  loaded.settings.samples_per_pixel = integrator == "volpath" ? 4 : 2;
+  loaded.settings.samples_per_pixel = samples;
   const Scene scene(std::move(loaded.scene));
   Rendered rendered{loaded.settings.resolution, {}, {}};
   for (uint64_t seed = 0; seed < batches; ++seed) {
-    loaded.settings.seed = seed;
+    loaded.settings.seed = first_seed + seed;
     const RenderResult result = render(scene, loaded.settings);
     EXPECT_EQ(result.statistics.rejected.total(), 0);
     const Image image = result.film.develop();
@@ -142,12 +143,12 @@ INSTANTIATE_TEST_SUITE_P(Scenes, ArchetypeTest,
                                           testing::ValuesIn(integrator_names())),
                          case_name);
 
-TEST_P(ArchetypeTest, AgreesWithItsReference) {
-  const auto& [c, integrator] = GetParam();
-  if (!is_wanted(c, integrator)) return;
-  const Rendered rendered =
-      render_batches(load_scene((archetypes / c.scene / c.file).string()), integrator);
+struct Verdict {
+  int rejected = 0, tiles = 0;
+  double p_value_of_all = 1;
+};
 
+Verdict judge(const Case& c, const Rendered& rendered) {
   const Image reference =
       read_image((archetypes / c.scene / (c.reference + ".exr")).string());
   std::ifstream json_file(archetypes / c.scene / (c.reference + ".json"));
@@ -156,8 +157,8 @@ TEST_P(ArchetypeTest, AgreesWithItsReference) {
   const double epsilon = 0.01 * sqr(json.value("mean", 1.0));
 
   const auto tiles = static_cast<int>(rendered.tiles.size());
+  Verdict verdict{.rejected = 0, .tiles = tiles};
   const boost::math::students_t student(batches - 1);
-  int rejected = 0;
   RunningMoments difference;
   double variance = 0;
   size_t i = 0;
@@ -173,20 +174,33 @@ TEST_P(ArchetypeTest, AgreesWithItsReference) {
       const double p_value = 2 * boost::math::cdf(boost::math::complement(student, t));
       const bool on_one_side =
           b.mean < rendered.tiles[i].min || b.mean > rendered.tiles[i].max;
-      if (on_one_side && p_value < sidak(level, tiles)) ++rejected;
+      if (on_one_side && p_value < sidak(level, tiles)) ++verdict.rejected;
       difference.add(a.mean() - b.mean);
       variance += sqr(error);
     }
+  verdict.p_value_of_all = z_p_value(difference.mean() * tiles, std::sqrt(variance), 0);
+  return verdict;
+}
+
+TEST_P(ArchetypeTest, AgreesWithItsReference) {
+  const auto& [c, integrator] = GetParam();
+  if (!is_wanted(c, integrator)) return;
+  const std::string path = (archetypes / c.scene / c.file).string();
+  const uint32_t samples = integrator == "volpath" ? 4 : 2;
+  Verdict verdict = judge(c, render_batches(load_scene(path), integrator, 0, samples));
+  // What is rejected must be rejected again by other and more samples: a bias stays, a
+  // firefly does not.
+  if (verdict.rejected > 0)
+    verdict = judge(c, render_batches(load_scene(path), integrator, batches, 3 * samples));
+
   // The variance of volpath is infinite near lamps, and that of a tile's mean cannot be
   // estimated: its tiles lean to the dark side until the one path comes that makes up for
   // it. So do those of the reference of s06, a lamp in smoke, where the pictures are
   // darkest.
   if (integrator != "volpath" && c.scene != "s06_plume") {
-    EXPECT_EQ(rejected, 0) << "tiles of " << tiles;
+    EXPECT_EQ(verdict.rejected, 0) << "tiles of " << verdict.tiles;
   }
-  EXPECT_GT(z_p_value(difference.mean() * tiles, std::sqrt(variance), 0), 1e-4)
-      << "all tiles together: " << difference.mean() << " +- "
-      << std::sqrt(variance) / tiles;
+  EXPECT_GT(verdict.p_value_of_all, 1e-4) << "all tiles together";
 }
 
 }  // namespace
