@@ -17,7 +17,7 @@ struct RecordTrainingSettings {
   /// ones together a quarter remains.
   EmSettings em{.step_exponent = 1, .step_gain = 2};
   ShareSettings shares;
-  size_t least_samples = 16;        ///< of positive weight, for a first fit of a mixture
+  size_t least_samples = 6;         ///< of positive weight, for a first fit of a mixture
   double least_effective = 2;       ///< and so many effective ones
   uint32_t samples_per_step = 256;  ///< between two M steps
 };
