@@ -55,10 +55,11 @@ class RenderJob {
         options_(options),
         integrator_(make_integrator(scene, settings)),
         filter_(settings.filter),
-        film_(settings.resolution, settings.crop_min, settings.crop_max) {}
+        film_(settings.resolution, settings.crop_min, settings.crop_max) {
+    statistics_.training_seconds = clock_.seconds();
+  }
 
   RenderResult run() {
-    const double cpu_start = process_cpu_seconds();
     tbb::task_arena arena(options_.threads > 0 ? options_.threads
                                                : tbb::task_arena::automatic);
     // An arena of more slots than the default concurrency needs workers to fill them.
@@ -67,7 +68,7 @@ class RenderJob {
     arena.execute([&] { run_passes(); });
     statistics_.threads = arena.max_concurrency();
     statistics_.seconds = clock_.seconds();
-    statistics_.cpu_seconds = process_cpu_seconds() - cpu_start;
+    statistics_.cpu_seconds = process_cpu_seconds() - cpu_start_;
     statistics_.samples_per_pixel = done_;
     statistics_.paths = static_cast<int64_t>(done_) * pixel_count();
     statistics_.rejected = film_.rejected();
@@ -172,11 +173,13 @@ class RenderJob {
   const Scene& scene_;
   const RenderSettings& settings_;
   const RenderOptions& options_;
+  // Both clocks run while the integrator is made: it traces what its lights see.
+  Stopwatch clock_;
+  double cpu_start_ = process_cpu_seconds();
   std::unique_ptr<Integrator> integrator_;
   Filter filter_;
   Film film_;
   RenderStatistics statistics_;
-  Stopwatch clock_;
   uint32_t done_ = 0, last_pass_ = 1;
   double seconds_per_sample_ = 0;
   std::atomic<int64_t> finished_pixels_ = 0;
