@@ -17,9 +17,9 @@ int percent(const RenderProgress& progress) {
   return static_cast<int>(std::floor(std::clamp(progress.fraction, 0.0, 1.0) * 100 + 1e-9));
 }
 
-/// "ETA 0:12", or nothing as long as nobody knows.
+/// "ETA 0:12", or nothing as long as nobody knows and at the end.
 std::string format_eta(double seconds_remaining) {
-  if (!std::isfinite(seconds_remaining) || seconds_remaining < 0) return "";
+  if (!std::isfinite(seconds_remaining) || seconds_remaining <= 0) return "";
   return "ETA " + format_seconds(seconds_remaining);
 }
 

@@ -66,6 +66,7 @@ class RenderJob {
     const tbb::global_control workers(tbb::global_control::max_allowed_parallelism,
                                       static_cast<size_t>(arena.max_concurrency()));
     arena.execute([&] { run_passes(); });
+    if (options_.on_progress) report_progress(done_, done_);
     statistics_.threads = arena.max_concurrency();
     statistics_.seconds = clock_.seconds();
     statistics_.cpu_seconds = process_cpu_seconds() - cpu_start_;
@@ -155,18 +156,23 @@ class RenderJob {
   void tell_progress(Pass pass, int64_t finished_pixels) {
     if (!options_.on_progress) return;
     const std::unique_lock lock(progress_mutex_, std::try_to_lock);
-    const double now = clock_.seconds();
-    if (!lock || now - last_progress_ < progress_interval) return;
-    last_progress_ = now;
+    if (!lock || clock_.seconds() - last_progress_ < progress_interval) return;
     const double of_pass =
         static_cast<double>(finished_pixels) / static_cast<double>(pixel_count());
-    double fraction = (pass.first + of_pass * pass.count) / settings_.samples_per_pixel;
+    report_progress(pass.first + of_pass * pass.count, pass.first);
+  }
+
+  // `samples` count the begun ones too.
+  void report_progress(double samples, uint32_t finished) {
+    const double now = last_progress_ = clock_.seconds();
+    double fraction = samples / settings_.samples_per_pixel;
     if (options_.time_limit) fraction = std::max(fraction, now / *options_.time_limit);
     fraction = std::min(fraction, 1.0);
+    const bool is_known = fraction > 0 && !statistics_.stopped_early;
     options_.on_progress({.fraction = fraction,
                           .seconds = now,
-                          .seconds_remaining = fraction > 0 ? now / fraction - now : 0,
-                          .samples = pass.first,
+                          .seconds_remaining = is_known ? now / fraction - now : 0,
+                          .samples = finished,
                           .phase = "rendering"});
   }
 

@@ -18,7 +18,7 @@ namespace tyndall {
 struct RenderProgress {
   double fraction;           ///< of the work, by samples or by time, whichever ends first
   double seconds;            ///< since the start
-  double seconds_remaining;  ///< estimated
+  double seconds_remaining;  ///< estimated; zero: nothing or unknown
   uint32_t samples;          ///< finished per pixel
   std::string phase;         ///< "training", "rendering"
 };
@@ -29,7 +29,7 @@ struct RenderOptions {
   std::optional<double> time_limit;  ///< [s]; the pass in hand is finished
   /// Set to true from anywhere, a signal handler too, to stop after the pass in hand.
   const std::atomic<bool>* stop = nullptr;
-  /// Called from one thread at a time, at most about ten times a second.
+  /// Called from one thread at a time, at most about ten times a second, and at the end.
   std::function<void(const RenderProgress&)> on_progress;
   /// Called after each pass with the film so far and its samples per pixel, for
   /// checkpoints.
