@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tyndall/geometry/ray.h"
+#include "tyndall/geometry/scene_hit.h"
 #include "tyndall/geometry/shape.h"
 #include "tyndall/math/transform.h"
 
@@ -18,14 +19,6 @@ enum class RayMask : uint32_t {
   opaque = 1,    ///< all but interfaces
   boundary = 2,  ///< interfaces between media only
   all = 3,
-};
-
-/// A hit, in world space.
-struct SceneHit {
-  float t;         ///< distance along the ray [scene units]
-  uint32_t group;  ///< group and shape index as given to the constructor
-  uint32_t shape;
-  SurfacePoint point;
 };
 
 /// Finds the first of many shapes that a ray meets. Embree behind it; immutable and safe to

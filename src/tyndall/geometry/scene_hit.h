@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "tyndall/geometry/precise.h"
+#include "tyndall/geometry/surface_point.h"
+#include "tyndall/geometry/target_shape.h"
+
+namespace tyndall {
+
+/// A hit, in world space.
+struct SceneHit {
+  float t;         ///< distance along the ray [scene units]
+  uint32_t group;  ///< group and shape index as given to the intersector
+  uint32_t shape;
+  SurfacePoint point;
+};
+
+/// Where an instance of a group of shapes is.
+struct InstanceMaps {
+  uint32_t group;
+  Affine world_from_group, group_from_world;
+
+  PreciseRay group_ray(const PreciseRay& ray_world) const {
+    return {.o = group_from_world.point(ray_world.o),
+            .d = group_from_world.vector(ray_world.d)};
+  }
+};
+
+/// What a search in single precision tells of a hit.
+struct RoughHit {
+  float t;
+  uint32_t shape, primitive;
+  Vec2 uv;  ///< the shape's own parameters
+};
+
+/// The hit to double precision, rounded once. `ray` is in the space of the target, whose
+/// instance is null in the world.
+SceneHit reconstruct(const TargetShape& target, const RoughHit& hit, const PreciseRay& ray,
+                     const InstanceMaps* instance);
+
+}  // namespace tyndall

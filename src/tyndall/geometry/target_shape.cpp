@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tyndall/geometry/target_shape.h"
+
+#include <cmath>
+
+namespace tyndall {
+namespace {
+
+float longest_edge_of(const TriangleMesh& mesh) {
+  double longest2 = 0;
+  for (uint32_t i = 0; i < mesh.triangles().size(); ++i) {
+    const PreciseTriangle triangle = mesh.triangle(i);
+    for (const Vec3d edge :
+         {triangle.edge1, triangle.edge2, triangle.edge2 - triangle.edge1})
+      if (dot(edge, edge) > longest2) longest2 = dot(edge, edge);
+  }
+  return static_cast<float>(std::sqrt(longest2));
+}
+
+}  // namespace
+
+TargetShape::TargetShape(const Shape& shape)
+    : shape_(&shape), mesh_(std::get_if<TriangleMesh>(&shape)) {
+  if (mesh_) longest_edge_ = longest_edge_of(*mesh_);
+  if (const auto* sphere = std::get_if<Sphere>(&shape))
+    quadric_.emplace<SphereIntersector>(*sphere);
+  if (const auto* disk = std::get_if<Disk>(&shape))
+    quadric_.emplace<DiskIntersector>(*disk);
+}
+
+size_t TargetShape::primitive_count() const {
+  if (mesh_) return mesh_->triangles().size();
+  if (const auto* mesh = std::get_if<BilinearMesh>(shape_)) return mesh->patches().size();
+  return 1;
+}
+
+Bounds3 TargetShape::primitive_bounds(uint32_t primitive) const {
+  const auto* mesh = std::get_if<BilinearMesh>(shape_);
+  if (!mesh) return bounds(*shape_);
+  Bounds3 b;
+  const BilinearPatch patch = mesh->patch(primitive);
+  for (const Vec3d p : {patch.p00, patch.p10, patch.p01, patch.p11}) {
+    if (!is_finite(to_float(p))) return {};
+    b.extend(to_float(p));
+  }
+  return b;
+}
+
+std::optional<PreciseHit> TargetShape::intersect(uint32_t primitive, const PreciseRay& ray,
+                                                 double t_max) const {
+  if (const auto* sphere = std::get_if<SphereIntersector>(&quadric_))
+    return sphere->intersect(ray, t_max);
+  if (const auto* disk = std::get_if<DiskIntersector>(&quadric_))
+    return disk->intersect(ray, t_max);
+  return intersect_patch(std::get<BilinearMesh>(*shape_).patch(primitive), ray, t_max);
+}
+
+}  // namespace tyndall
