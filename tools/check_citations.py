@@ -6,10 +6,10 @@ A citation is a key in square brackets, with a place or not: [KF12], [PBRT4, Sec
 [KF12; GKH13]. Keys are an author's name or initials and the year's last digits.
 """
 
-import argparse
-import pathlib
 import re
 import sys
+
+import check_program
 
 KEY = re.compile(r"[A-Z][A-Za-z]*\d{1,2}[a-z]?$")
 BRACKETS = re.compile(r"\[([^\[\]]+)\](?![(\[])")
@@ -60,14 +60,5 @@ def check(root):
     return complaints
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("root", nargs="?", type=pathlib.Path,
-                        default=pathlib.Path(__file__).resolve().parent.parent)
-    complaints = check(parser.parse_args().root)
-    print("\n".join(complaints) or "citations: no complaints")
-    return 1 if complaints else 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(check_program.run("citations", __doc__, check))

@@ -5,12 +5,12 @@
 Only clang-format 14 (Debian 12) counts, since versions differ. Exit status 77 if it is not here.
 """
 
-import argparse
-import pathlib
 import re
 import shutil
 import subprocess
 import sys
+
+import check_program
 
 FOLDERS = ("src", "apps", "tests", "bench", "python")
 VERSION = "14"
@@ -27,9 +27,7 @@ def find_clang_format():
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("root", nargs="?", type=pathlib.Path,
-                        default=pathlib.Path(__file__).resolve().parent.parent)
+    parser = check_program.argument_parser(__doc__)
     parser.add_argument("--fix", action="store_true", help="format the files")
     arguments = parser.parse_args()
     clang_format = find_clang_format()

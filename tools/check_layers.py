@@ -7,10 +7,10 @@ a lower number. Third-party headers stay out of our headers, and each library st
 and within the number of .cpp files that LIBRARIES grants it.
 """
 
-import argparse
-import pathlib
 import re
 import sys
+
+import check_program
 
 LAYERS = {
     "math": 1,
@@ -143,14 +143,5 @@ def check_command_line(root):
     return complaints
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("root", nargs="?", type=pathlib.Path,
-                        default=pathlib.Path(__file__).resolve().parent.parent)
-    complaints = check(parser.parse_args().root)
-    print("\n".join(complaints) or "layers: no complaints")
-    return 1 if complaints else 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(check_program.run("layers", __doc__, check))

@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Checks what a formatter does not: license lines, sizes, leftovers, paths of somebody's machine."""
 
-import argparse
-import pathlib
 import re
 import sys
+
+import check_program
 
 FOLDERS = ("src", "apps", "tests", "bench", "tools", "python", "docs", "scenes", "cmake")
 LICENSED = (".h", ".cpp", ".py", ".sh")
@@ -74,14 +74,5 @@ def check(root):
     return complaints
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("root", nargs="?", type=pathlib.Path,
-                        default=pathlib.Path(__file__).resolve().parent.parent)
-    complaints = check(parser.parse_args().root)
-    print("\n".join(complaints) or "style: no complaints")
-    return 1 if complaints else 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(check_program.run("style", __doc__, check))
