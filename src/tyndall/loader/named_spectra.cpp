@@ -16,32 +16,36 @@ struct Entry {
 
 constexpr Rgb grey(float x) { return {x, x, x}; }
 
-// Optical constants at the dominant wavelengths of the Rec. 709 primaries, 611, 549 and 465
-// nm: metals from [JC72] and [Rakic95], brass from [Querry85], oxides from [DeVore51] and
-// [Stephens52], glasses at 587.6 nm from Schott's catalogue.
+// Three numbers cannot hold a spectrum. Those of a metal are chosen so that a mirror of it
+// reflects D65 at normal incidence with the color that its spectra give, at most 0.99 (gold
+// leaves the gamut): eta at the dominant wavelengths of the Rec. 709 primaries,
+// 611, 549 and 465 nm, and k, or eta where k is zero, solved for the reflectance. Spectra
+// from [Luxpop26], the same in pbrt-v4 and Mitsuba 3; brass as it is at those wavelengths
+// [Querry85]. Glasses at 587.6 nm from Schott's catalogue; pbrt-v4 calls SF5 F5, and so on.
 constexpr std::array materials{
     Entry{"glass-BK7", grey(1.5168f)},
     Entry{"glass-BAF10", grey(1.6700f)},
-    Entry{"glass-F5", grey(1.6034f)},
-    Entry{"glass-F11", grey(1.6206f)},
     Entry{"glass-FK51A", grey(1.4866f)},
     Entry{"glass-LASF9", grey(1.8503f)},
+    Entry{"glass-F5", grey(1.6727f)},
+    Entry{"glass-F10", grey(1.7283f)},
+    Entry{"glass-F11", grey(1.7847f)},
     Entry{"glass-SF5", grey(1.6727f)},
     Entry{"glass-SF10", grey(1.7283f)},
     Entry{"glass-SF11", grey(1.7847f)},
-    Entry{"metal-Ag-eta", {0.060f, 0.060f, 0.050f}},
-    Entry{"metal-Ag-k", {4.10f, 3.59f, 2.82f}},
-    Entry{"metal-Al-eta", {1.30f, 0.96f, 0.65f}},
-    Entry{"metal-Al-k", {7.36f, 6.69f, 5.63f}},
-    Entry{"metal-Au-eta", {0.22f, 0.43f, 1.33f}},
-    Entry{"metal-Au-k", {3.23f, 2.46f, 1.87f}},
-    Entry{"metal-Cu-eta", {0.33f, 1.02f, 1.25f}},
-    Entry{"metal-Cu-k", {3.17f, 2.58f, 2.46f}},
+    Entry{"metal-Ag-eta", {0.128f, 0.125f, 0.140f}},
+    Entry{"metal-Ag-k", {4.083f, 3.351f, 2.301f}},
+    Entry{"metal-Al-eta", {1.253f, 0.954f, 0.660f}},
+    Entry{"metal-Al-k", {7.255f, 6.694f, 5.676f}},
+    Entry{"metal-Au-eta", {0.205f, 0.355f, 1.372f}},
+    Entry{"metal-Au-k", {8.971f, 2.166f, 1.653f}},
+    Entry{"metal-Cu-eta", {0.319f, 0.966f, 1.157f}},
+    Entry{"metal-Cu-k", {5.178f, 2.607f, 2.317f}},
     Entry{"metal-CuZn-eta", {0.444f, 0.527f, 1.094f}},
     Entry{"metal-CuZn-k", {3.695f, 2.765f, 1.829f}},
-    Entry{"metal-MgO-eta", {1.736f, 1.741f, 1.750f}},
+    Entry{"metal-MgO-eta", {1.734f, 1.741f, 1.754f}},
     Entry{"metal-MgO-k", grey(0)},
-    Entry{"metal-TiO2-eta", {2.597f, 2.649f, 2.777f}},
+    Entry{"metal-TiO2-eta", {2.860f, 2.957f, 3.186f}},
     Entry{"metal-TiO2-k", grey(0)},
 };
 
