@@ -69,6 +69,35 @@ TEST_P(RenderTest, CropIsPartOfTheFullPicture) {
   EXPECT_EQ(crop.height(), 12);
 }
 
+// pbrt-v4 multiplies what the sensor sees by exposure time * iso / 100.
+TEST(Render, MultipliesByTheImagingRatio) {
+  SceneDescription d;
+  d.camera = test::camera({0, 0, -3}, {0, 0, 0}, 40, {8, 8});
+  d.lights.push_back(Light(ConstantEnvironment{Rgb(0.25f, 0.5f, 1)}));
+  RenderSettings s = test::settings("volpath", 6);
+  s.resolution = s.crop_max = {8, 8};
+  s.imaging_ratio = 4;
+  const Image image = render(Scene(d), s).film.develop();
+  EXPECT_EQ(image.rgb(3, 5), Rgb(1, 2, 4));
+}
+
+TEST_P(RenderTest, ImagingRatioScalesVarianceAndNotGuides) {
+  const Scene scene(foggy_scene());
+  RenderSettings s = foggy_settings(GetParam());
+  const Image plain = render(scene, s).film.develop();
+  s.imaging_ratio = 4;  // a power of two: rounding stays the same
+  const Image bright = render(scene, s).film.develop();
+  const auto expect_factor = [&](const std::string& channel, float factor) {
+    std::vector<float> expected = plain.find(channel)->values;
+    for (float& value : expected) value *= factor;
+    EXPECT_EQ(bright.find(channel)->values, expected) << channel;
+  };
+  expect_factor("G", 4);
+  expect_factor("variance.G", 16);
+  for (const std::string name : {"albedo.G", "normal.Z", "depth.Z", "spp.Y"})
+    expect_factor(name, 1);
+}
+
 TEST(Render, StopsAfterThePassInHand) {
   const Scene scene(foggy_scene());
   RenderSettings s = foggy_settings("volpath");
@@ -113,6 +142,7 @@ TEST(Render, ReportsProgressThatGrows) {
   };
   render(scene, s, options);
   EXPECT_GT(calls, 0);
+  EXPECT_EQ(last, 1);
 }
 
 TEST(Render, UnknownIntegratorNamesTheKnownOnes) {

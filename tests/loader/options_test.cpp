@@ -77,9 +77,13 @@ TEST(LoadFilmTest, DerivesTheImagingRatio) {
   EXPECT_EQ(parse_options("Film \"rgb\" \"string sensor\" \"cie1931\" \"float iso\" 100")
                 .settings.imaging_ratio,
             1);
-  EXPECT_EQ(parse_options("Film \"rgb\" \"float iso\" 400 \"float exposuretime\" .5")
-                .settings.imaging_ratio,
-            2);
+  const std::string shutter =
+      "Camera \"perspective\" \"float shutteropen\" .25 \"float shutterclose\" .75\n";
+  const std::string film = "Film \"rgb\" \"float iso\" 400\n";
+  for (const std::string& options : {shutter + film, film + shutter})
+    EXPECT_EQ(parse_scene(options + "WorldBegin\nLightSource \"infinite\"\n", "test.pbrt")
+                  .settings.imaging_ratio,
+              2);
 }
 
 TEST(LoadFilterTest, HasPbrtsDefaults) {

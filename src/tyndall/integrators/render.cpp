@@ -150,7 +150,7 @@ class RenderJob {
     const Vec2 u_lens =
         scene_.camera().settings().lens_radius > 0 ? sampler.next_2d() : Vec2{0.5f, 0.5f};
     const PathSample sample = integrator_->Li(scene_.camera().ray(p_film, u_lens), sampler);
-    film_.add(pixel, sample, offset.weight);
+    film_.add(pixel, sample, offset.weight * settings_.imaging_ratio);
   }
 
   void tell_progress(Pass pass, int64_t finished_pixels) {

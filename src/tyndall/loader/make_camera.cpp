@@ -37,6 +37,17 @@ void read_screen_window(ParameterSet& parameters, CameraRequest& camera) {
   camera.settings.screen_max_y = window[3];
 }
 
+float read_exposure_time(ParameterSet& parameters) {
+  const float open = parameters.number("shutteropen", 0);
+  const float close = parameters.number("shutterclose", 1);
+  if (close > open) return close - open;
+  parameters.error(
+      parameters.has("shutterclose") ? "shutterclose" : "shutteropen",
+      fmt::format("the shutter must close after it opens; it opens at {}, closes at {}",
+                  open, close));
+  return 1;
+}
+
 float read_fov(ParameterSet& parameters) {
   const float fov = parameters.number("fov", 90, proper_angle);
   const float half = parameters.number("halffov", 0, {0, 90, true});
@@ -60,7 +71,7 @@ CameraRequest make_camera(const std::string& type, ParameterSet& parameters,
   if (parameters.has("frameaspectratio"))
     camera.aspect_ratio = parameters.number("frameaspectratio", 1, positive);
   read_screen_window(parameters, camera);
-  parameters.ignore({"shutteropen", "shutterclose"});
+  camera.exposure_time = read_exposure_time(parameters);
   return camera;
 }
 

@@ -85,9 +85,7 @@ void read_sensor(ParameterSet& parameters, RenderSettings& settings) {
   if (white_balance != 0)
     parameters.unsupported("whitebalance",
                            "white balance is not supported yet, it is ignored");
-  const float exposure_time = parameters.number("exposuretime", 1, positive);
-  const float iso = parameters.number("iso", 100, positive);
-  settings.imaging_ratio = exposure_time * iso / 100;
+  settings.imaging_ratio = parameters.number("iso", 100, positive) / 100;
 }
 
 }  // namespace

@@ -26,12 +26,14 @@ struct CameraRequest {
   PerspectiveCamera::Settings settings;
   std::optional<float> aspect_ratio;
   bool has_screen_window = false;
+  float exposure_time = 1;  ///< from the shutter's opening to its closing
 };
 CameraRequest make_camera(const std::string& type, ParameterSet& parameters,
                           const Transform& camera_from_world);
 /// Fills in the screen window as pbrt-v4 does: the shorter side spans [-1, 1].
 PerspectiveCamera::Settings fit_to_film(const CameraRequest& camera, Vec2i resolution);
 
+/// The exposure time is not known yet: `imaging_ratio` is that of one.
 void set_film(const std::string& type, ParameterSet& parameters, RenderSettings& settings);
 void set_pixel_filter(const std::string& type, ParameterSet& parameters,
                       RenderSettings& settings);

@@ -102,6 +102,7 @@ LoadedScene SceneBuilder::finish(Span end) {
   scene.camera =
       PerspectiveCamera(fit_to_film(*camera_, settings_.resolution), settings_.resolution);
   loaded.settings = settings_;
+  loaded.settings.imaging_ratio *= camera_->exposure_time;
   loaded.warnings = reporter_.take_warnings();
   return loaded;
 }
