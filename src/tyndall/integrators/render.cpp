@@ -154,7 +154,8 @@ class RenderJob {
   }
 
   void tell_progress(Pass pass, int64_t finished_pixels) {
-    if (!options_.on_progress) return;
+    // The next pass or the end tells of a pass that is complete.
+    if (!options_.on_progress || finished_pixels == pixel_count()) return;
     const std::unique_lock lock(progress_mutex_, std::try_to_lock);
     if (!lock || clock_.seconds() - last_progress_ < progress_interval) return;
     const double of_pass =
