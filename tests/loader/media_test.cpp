@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "parse.h"
+#include "tyndall/media/blackbody.h"
 
 namespace tyndall {
 namespace {
@@ -70,6 +71,72 @@ TEST(LoadUniformGridTest, OrderOfValues) {
     const Vec3 center{i & 1 ? 0.75f : 0.25f, i & 2 ? 0.75f : 0.25f, i & 4 ? 0.75f : 0.25f};
     EXPECT_NEAR(medium.at(center).sigma_s.g, i, 1e-5) << i;
   }
+}
+
+TEST(LoadUniformGridTest, CornersMayBeSwapped) {
+  const Medium medium = medium_of(
+      "\"string type\" \"uniformgrid\" \"integer nx\" 2 \"float density\" [1 3] "
+      "\"point3 p0\" [2 0 1] \"point3 p1\" [0 1 0]");
+  EXPECT_NEAR(medium.at({0.5f, 0.5f, 0.5f}).sigma_a.g, 1, 1e-5);
+  EXPECT_NEAR(medium.at({1.5f, 0.5f, 0.5f}).sigma_a.g, 3, 1e-5);
+}
+
+TEST(LoadUniformGridTest, EmissionVaries) {
+  const Medium medium = medium_of(
+      "\"string type\" \"uniformgrid\" \"integer nx\" 2 \"float density\" [1 1] "
+      "\"rgb Le\" [1 2 3] \"float Lescale\" [2 4]");
+  expect_near(medium.at({0.25f, 0.5f, 0.5f}).Le, {2, 4, 6});
+  expect_near(medium.at({0.75f, 0.5f, 0.5f}).Le, {4, 8, 12});
+  const Medium constant = medium_of(
+      "\"string type\" \"uniformgrid\" \"integer nx\" 2 \"float density\" [1 1] "
+      "\"rgb Le\" [1 2 3] \"float Lescale\" 5");
+  expect_near(constant.at({0.5f, 0.5f, 0.5f}).Le, {5, 10, 15});
+}
+
+TEST(LoadUniformGridTest, GlowsByTemperature) {
+  for (const char* offset : {"temperatureoffset", "temperaturecutoff"}) {
+    const Medium medium = medium_of(
+        "\"string type\" \"uniformgrid\" \"integer nx\" 2 \"float density\" [1 1] "
+        "\"float temperature\" [.5 1.5] \"float temperaturescale\" 2000 \"float " +
+        std::string(offset) + "\" .5 \"float Lescale\" 3");
+    EXPECT_TRUE(is_black(medium.at({0.25f, 0.5f, 0.5f}).Le));
+    expect_near(medium.at({0.75f, 0.5f, 0.5f}).Le, 3 * blackbody_radiance(2000));
+  }
+}
+
+TEST(LoadRgbGridTest, ReadsColors) {
+  const Medium medium = medium_of(
+      "\"string type\" \"rgbgrid\" \"integer nx\" 2 \"float scale\" 2 \"float g\" .5 "
+      "\"rgb sigma_a\" [1 0 0  0 1 0] \"rgb sigma_s\" [0 0 1  .5 .5 .5] "
+      "\"rgb Le\" [1 2 3  0 0 1] \"float Lescale\" 10");
+  const MediumProperties left = medium.at({0.25f, 0.5f, 0.5f});
+  const MediumProperties right = medium.at({0.75f, 0.5f, 0.5f});
+  expect_near(left.sigma_a, {2, 0, 0});
+  expect_near(left.sigma_s, {0, 0, 2});
+  expect_near(left.Le, {10, 20, 30});
+  expect_near(right.sigma_a, {0, 2, 0});
+  expect_near(right.sigma_s, Rgb(1));
+  EXPECT_EQ(medium.phase().mean_cosine(), 0.5f);
+}
+
+// As in pbrt-v4, the coefficient that is not given is one.
+TEST(LoadRgbGridTest, OneCoefficientIsEnough) {
+  const MediumProperties p =
+      medium_of("\"string type\" \"rgbgrid\" \"rgb sigma_s\" [1 2 3] \"float scale\" 2")
+          .at({0.5f, 0.5f, 0.5f});
+  expect_near(p.sigma_a, Rgb(2));
+  expect_near(p.sigma_s, {2, 4, 6});
+}
+
+TEST(LoadCloudTest, IsDenseBelowAndThinAbove) {
+  const Medium medium = medium_of(
+      "\"string type\" \"cloud\" \"float sigma_a\" 0 \"float sigma_s\" 4 \"float "
+      "frequency\" "
+      "2 \"float wispiness\" .5 \"float density\" 2 \"point3 p0\" [0 -1 0]",
+      "Translate 10 0 0");
+  EXPECT_NEAR(medium.at({10.5f, -0.5f, 0.5f}).sigma_s.g, 4, 1e-4);
+  EXPECT_LT(medium.at({10.5f, 0.98f, 0.5f}).sigma_s.g, 1);
+  EXPECT_TRUE(is_black(medium.at({0.5f, 0.5f, 0.5f}).sigma_s));
 }
 
 TEST(LoadMediumTest, SurfacesKnowTheirMedia) {

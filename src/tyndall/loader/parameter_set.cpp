@@ -203,6 +203,10 @@ void ParameterSet::unsupported(std::string_view name, std::string_view message) 
   reporter_->unsupported(where(name), fmt::format("{}: {}", owner_, message));
 }
 
+void ParameterSet::warning(std::string_view name, std::string_view message) const {
+  reporter_->warning(where(name), fmt::format("{}: {}", owner_, message));
+}
+
 void ParameterSet::fail_unknown_type(std::string_view what, std::string_view type,
                                      const std::vector<std::string_view>& names) const {
   const std::string nearest = did_you_mean(type, names);

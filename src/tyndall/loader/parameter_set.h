@@ -79,6 +79,7 @@ class ParameterSet {
   /// About the parameter, with the owner's name before the message.
   void error(std::string_view name, std::string_view message) const;
   void unsupported(std::string_view name, std::string_view message) const;
+  void warning(std::string_view name, std::string_view message) const;
 
  private:
   const Parameter* look_up(std::string_view name) const;

@@ -19,7 +19,7 @@ struct CloudParameters {
 float cloud_density(const CloudParameters& parameters, Vec3 p);
 
 /// The cloud in `bounds`, sampled finely enough for its smallest detail, but in at most
-/// 256^3 points. Computed in parallel.
+/// 192^3 points. Computed in parallel.
 PlacedGrid make_cloud(const CloudParameters& parameters, const Bounds3& bounds);
 
 }  // namespace tyndall

@@ -55,25 +55,33 @@ std::string list_names(const std::vector<VolumeGridInfo>& grids) {
   return list.empty() ? "no grids" : list;
 }
 
-// The index of the first grid with a wanted name.
-size_t find_grid(const std::vector<VolumeGridInfo>& grids,
-                 std::span<const std::string_view> names) {
+// The first grid with a name of the list; null if there is none.
+const VolumeGridInfo* find_name(const std::vector<VolumeGridInfo>& grids,
+                                std::span<const std::string_view> names) {
   for (const std::string_view name : names) {
     const auto found =
         std::find_if(grids.begin(), grids.end(),
                      [&](const VolumeGridInfo& g) { return g.name == name; });
-    if (found == grids.end()) continue;
-    if (!found->is_scalar)
-      throw std::runtime_error(fmt::format(
-          "grid \"{}\" is of type {}, a grid of numbers is needed; the file has {}", name,
-          found->type, list_names(grids)));
-    return static_cast<size_t>(found - grids.begin());
+    if (found != grids.end()) return &*found;
   }
+  return nullptr;
+}
+
+// The index of the grid that read_volume() reads.
+size_t find_grid(const std::vector<VolumeGridInfo>& grids,
+                 std::span<const std::string_view> names) {
   const bool is_only_one = grids.size() == 1 && grids[0].name.empty() && grids[0].is_scalar;
   if (is_only_one) return 0;
-  throw std::runtime_error(fmt::format("there is no grid \"{}\"; the file has {}",
-                                       names.empty() ? "" : names.front(),
-                                       list_names(grids)));
+  const VolumeGridInfo* found = find_name(grids, names);
+  if (!found)
+    throw std::runtime_error(fmt::format("there is no grid \"{}\"; the file has {}",
+                                         names.empty() ? "" : names.front(),
+                                         list_names(grids)));
+  if (!found->is_scalar)
+    throw std::runtime_error(fmt::format(
+        "grid \"{}\" is of type {}, a grid of numbers is needed; the file has {}",
+        found->name, found->type, list_names(grids)));
+  return static_cast<size_t>(found - grids.data());
 }
 
 std::vector<VolumeGridInfo> infos_of(const std::vector<NanoVdbEntry>& entries) {
@@ -91,6 +99,13 @@ std::vector<VolumeGridInfo> list_volume_grids(const std::filesystem::path& path)
   });
 }
 
+std::vector<VolumeGridInfo> list_volume_names(const std::filesystem::path& path) {
+  return with_volume(path, [&](std::ifstream& file, Container container) {
+    return container == Container::openvdb ? list_openvdb_names(path)
+                                           : infos_of(read_nanovdb_directory(file));
+  });
+}
+
 PlacedGrid read_volume(const std::filesystem::path& path,
                        std::span<const std::string_view> names) {
   return with_volume(path, [&](std::ifstream& file, Container container) {
@@ -101,6 +116,16 @@ PlacedGrid read_volume(const std::filesystem::path& path,
     const std::vector<NanoVdbEntry> entries = read_nanovdb_directory(file);
     return read_nanovdb_grid(file, entries[find_grid(infos_of(entries), names)]);
   });
+}
+
+std::optional<PlacedGrid> read_volume_if_any(const std::filesystem::path& path,
+                                             std::span<const std::string_view> names) {
+  std::vector<VolumeGridInfo> grids = list_volume_names(path);
+  std::erase_if(grids, [](const VolumeGridInfo& grid) { return !grid.is_scalar; });
+  const VolumeGridInfo* found = find_name(grids, names);
+  if (!found) return std::nullopt;
+  const std::string_view name[] = {found->name};
+  return read_volume(path, name);
 }
 
 }  // namespace tyndall

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -31,6 +32,10 @@ struct VolumeGridInfo {
 /// Throws std::runtime_error that names the file if it cannot be read.
 std::vector<VolumeGridInfo> list_volume_grids(const std::filesystem::path& path);
 
+/// Only names and types are sure to be filled in, which is much faster.
+/// Throws std::runtime_error that names the file if it cannot be read.
+std::vector<VolumeGridInfo> list_volume_names(const std::filesystem::path& path);
+
 /// Reads the first grid of the file that has one of `names`, in their order of preference,
 /// or its only grid if that has no name; its medium space is the file's. Inactive voxels
 /// count as zero, and so does what is negative, infinite or not a number: see
@@ -38,6 +43,10 @@ std::vector<VolumeGridInfo> list_volume_grids(const std::filesystem::path& path)
 /// found if none has the name.
 PlacedGrid read_volume(const std::filesystem::path& path,
                        std::span<const std::string_view> names);
+
+/// As read_volume(), but empty if no grid of numbers has one of the names.
+std::optional<PlacedGrid> read_volume_if_any(const std::filesystem::path& path,
+                                             std::span<const std::string_view> names);
 
 /// Names of grids that mean a temperature, in order of preference.
 inline constexpr std::string_view temperature_grid_names[] = {"temperature", "flame",

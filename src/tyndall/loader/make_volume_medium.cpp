@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Media whose grids stand in a .nvdb or .vdb file: "nanovdb" and, the same, "openvdb".
+#include <fmt/format.h>
+
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "tyndall/loader/medium_parameters.h"
+#include "tyndall/media/volume_file.h"
+
+namespace tyndall::loader {
+namespace {
+
+constexpr float coldest_glow = 100;  // black bodies below are black [K]
+
+// What `read` returns; empty, with a report, if the file is not what it should be.
+template <typename F>
+auto read_or_report(const ParameterSet& parameters, F&& read)
+    -> std::optional<decltype(read())> {
+  std::string problem;
+  try {
+    return read();
+  } catch (const std::runtime_error& error) {
+    problem = error.what();
+  }
+  parameters.error("filename", fmt::format("cannot read {}", problem));
+  return std::nullopt;
+}
+
+// Says what of a grid has no meaning.
+void report_rejected(const ParameterSet& parameters, const PlacedGrid& placed,
+                     std::string_view what) {
+  const BrickGrid::Rejected rejected = placed.grid->rejected();
+  if (rejected.negative == 0 && rejected.not_finite == 0) return;
+  const char* kind = rejected.not_finite == 0 ? "negative"
+                     : rejected.negative == 0 ? "infinite or not-a-number"
+                                              : "negative, infinite or not-a-number";
+  parameters.warning("filename", fmt::format("the {} grid holds {} values, which count as "
+                                             "zero",
+                                             what, kind));
+}
+
+std::optional<PlacedGrid> read_density(ParameterSet& parameters, const std::string& path) {
+  const std::string name = parameters.string("gridname", "density");
+  const std::string_view names[] = {name};
+  const auto placed = read_or_report(parameters, [&] { return read_volume(path, names); });
+  if (!placed) return std::nullopt;
+  report_rejected(parameters, *placed, "density");
+  if (placed->grid->is_empty())
+    parameters.warning("filename", "the density is zero everywhere: an empty medium");
+  return placed;
+}
+
+// The grid that is asked for by name or, if none is, one of the usual names.
+std::optional<PlacedGrid> read_temperature(ParameterSet& parameters,
+                                           const std::string& path) {
+  const bool is_asked_for = parameters.has("temperaturename");
+  const std::string name = parameters.string("temperaturename", "");
+  const std::string_view names[] = {name};
+  if (is_asked_for)
+    return read_or_report(parameters, [&] { return read_volume(path, names); });
+  if (parameters.has("Le")) return std::nullopt;
+  const auto found = read_or_report(
+      parameters, [&] { return read_volume_if_any(path, temperature_grid_names); });
+  return found.value_or(std::nullopt);
+}
+
+GridEmission read_emission(ParameterSet& parameters, const std::string& path) {
+  const TemperatureScale kelvin = read_temperature_scale(parameters);
+  const std::optional<PlacedGrid> temperature = read_temperature(parameters, path);
+  if (!temperature) return {};
+  if (parameters.has("Le")) {
+    parameters.error("temperaturename",
+                     "either \"Le\" or a temperature says how the medium glows");
+    return {};
+  }
+  report_rejected(parameters, *temperature, "temperature");
+  const float hottest = (temperature->grid->maximum() - kelvin.offset) * kelvin.scale;
+  if (hottest > coldest_glow)
+    return {.scale = {},
+            .temperature = temperature,
+            .temperature_offset = kelvin.offset,
+            .temperature_scale = kelvin.scale};
+  parameters.warning(
+      "filename",
+      fmt::format(
+          "the temperature reaches {:.4g} K, too cold to glow; \"temperaturescale\" "
+          "multiplies it",
+          hottest));
+  return {};
+}
+
+}  // namespace
+
+std::optional<Medium> make_volume(const MediumContext& in) {
+  ParameterSet& p = in.parameters;
+  MediumProperties properties = read_properties(in, unit_coefficients);
+  const PhaseFunction phase = read_phase_function(p);
+  const float Le_scale = p.number("Lescale", 1, not_negative);
+  p.ignore({"gridname", "temperaturename", "temperatureoffset", "temperaturecutoff",
+            "temperaturescale"});
+  const std::string path =
+      in.files.find(p.required_string("filename"), p.where("filename"));
+  const auto density = read_density(p, path);
+  if (!density) return std::nullopt;
+  const GridEmission emission = read_emission(p, path);
+  if (emission.temperature) properties.Le = Rgb(1);
+  properties.Le *= Le_scale;
+  return Medium(GridMedium(*density, in.world_from_medium, properties, phase, emission));
+}
+
+}  // namespace tyndall::loader

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tyndall/math/vec.h"
+
+namespace tyndall::test {
+
+/// One active voxel.
+struct TestVoxel {
+  Vec3i at;
+  float value;
+};
+
+/// A grid of a volume file; voxel (0, 0, 0) sits at `origin`.
+struct TestGrid {
+  std::string name = "density";
+  std::vector<TestVoxel> voxels;
+  double voxel_size = 1;
+  Vec3 origin{};
+};
+
+/// The voxels [first, last], all of one value.
+std::vector<TestVoxel> filled_box(Vec3i first, Vec3i last, float value);
+
+/// Writes a .vdb file; throws if the build has no OpenVDB.
+void write_vdb(const std::filesystem::path& path, const std::vector<TestGrid>& grids);
+/// A .vdb file with a grid of points called "points" and one of vectors called "v".
+void write_vdb_without_numbers(const std::filesystem::path& path);
+
+enum class NvdbCodec { none, zip, blosc };
+void write_nvdb(const std::filesystem::path& path, const std::vector<TestGrid>& grids,
+                NvdbCodec codec = NvdbCodec::none);
+
+}  // namespace tyndall::test
