@@ -26,6 +26,9 @@ class ConnectionBudget {
   /// `mean_radiance` of the picture, roughly.
   explicit ConnectionBudget(float mean_radiance);
 
+  /// In units of the mean radiance.
+  float relative(float radiance) const { return radiance * static_cast<float>(scale_); }
+
   /// How many connections to make; fractions are probabilities.
   float count(Effort effort, int depth) const { return cell(effort, depth).count; }
 

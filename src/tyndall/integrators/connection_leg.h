@@ -23,11 +23,13 @@ struct ConnectionSettings {
   /// Legs along which the distance to the light varies by less than this factor are left to
   /// next event estimation: there is nothing to gain.
   float min_distance_ratio = 1.2f;
-  bool visibility = false;    ///< predict what the lights see, for distances
-  bool lit_surfaces = false;  ///< connect to surfaces that lights shine on
+  bool visibility = false;  ///< predict what the lights see, for distances
+  /// Connect to surfaces that lights shine on, by way of as many surfaces in all; zero: do
+  /// not.
+  int lit_surfaces = 0;
 };
 
-/// What all connections of a render share. Immutable.
+/// What all connections of a render share. Changes in update() only.
 class ConnectionContext {
  public:
   ConnectionContext(const Scene& scene, const ConnectionSettings& settings);
@@ -41,6 +43,11 @@ class ConnectionContext {
   const LightVisibility* visibility() const { return visibility_.get(); }
   /// Null if lit surfaces are not connected to.
   const LitSurfaceSampling* lit_surfaces() const { return lit_ ? &*lit_ : nullptr; }
+
+  /// Learns from what connections found so far. Not while paths are traced.
+  void update() {
+    if (lit_) lit_->update();
+  }
 
  private:
   const Scene* scene_;

@@ -2,6 +2,8 @@
 #include "tyndall/integrators/lit_surface.h"
 
 #include <algorithm>
+#include <cassert>
+#include <cmath>
 
 #include "tyndall/math/frame.h"
 #include "tyndall/sampling/warps.h"
@@ -9,100 +11,119 @@
 namespace tyndall {
 namespace {
 
-struct Emitted {
-  Ray ray;
-  Rgb emission;
-  float pdf;
-  SurfacePoint on{};  // of area lights
-};
+constexpr size_t max_bytes = size_t{16} << 20;
 
-Emitted emit(const PointLight& light, Vec2 /*u_point*/, Vec2 u) {
-  return {{light.p, sample_uniform_sphere(u)}, light.I, inv_4pi};
-}
-
-float cone_pdf(const SpotLight& light) { return inv_pi / (2 * (1 - light.cos_total)); }
-
-Emitted emit(const SpotLight& light, Vec2 /*u_point*/, Vec2 u) {
-  const float cos_theta = 1 - u.x * (1 - light.cos_total);
-  const Vec3 w =
-      Frame::from_z(light.axis).to_world(spherical_direction(cos_theta, 2 * pi * u.y));
-  return {{light.p, w}, light.intensity(w), cone_pdf(light)};
-}
-
-Emitted emit(const AreaLight& light, Vec2 u_point, Vec2 u) {
-  const ShapeSample s = sample_area(*light.shape, u_point);
-  float side = 1;
-  if (light.two_sided) {
-    side = u.x < 0.5f ? 1.0f : -1.0f;
-    u.x = std::min(u.x < 0.5f ? 2 * u.x : 2 * u.x - 1, one_minus_epsilon);
+// Before anything is learned, a walk over one more surface is tried half as often.
+std::vector<float> powers(const Scene& scene, int max_surfaces) {
+  std::vector<float> powers;
+  for (const Light& light : scene.lights()) {
+    float power = light.is_infinite() ? 0 : luminance(light.power(scene.bounds().radius()));
+    for (int i = 0; i < max_surfaces; ++i, power *= 0.5f) powers.push_back(power);
   }
-  const Vec3 local = sample_cosine_hemisphere(u);
-  const Vec3 w = Frame::from_z(s.point.ng * side).to_world(local);
-  const float sides = light.two_sided ? 2.0f : 1.0f;
-  return {{offset_origin(s.point.p, s.point.ng, w), w},
-          light.L * local.z,
-          s.pdf_area * local.z * inv_pi / sides,
-          s.point};
+  return powers;
 }
 
-template <typename T>
-Emitted emit(const T& /*at_infinity*/, Vec2, Vec2) {
-  return {};
+const DiffuseBsdf& diffuse(const SurfaceHit& hit) {
+  return std::get<DiffuseBsdf>(hit.surface->material);
 }
 
 }  // namespace
 
-LitSurfaceSampling::LitSurfaceSampling(const Scene& scene) : scene_(&scene) {
-  std::vector<float> power;
-  for (const Light& light : scene.lights()) {
-    power.push_back(light.is_infinite() ? 0
-                                        : luminance(light.power(scene.bounds().radius())));
-    const auto* area_light = std::get_if<AreaLight>(&light.variant());
-    area_.push_back(area_light ? area(*area_light->shape) : 0);
-  }
-  power_ = DiscreteDistribution(power);
+void LitChain::push_front(float density) {
+  size = std::min(size + 1, max_lit_surfaces);
+  for (int i = size - 1; i > 0; --i) edge[i] = edge[i - 1];
+  edge[0] = density;
+}
+
+float diffuse_edge_density(Vec3 ng0, Vec3 ng1, Vec3 w, float distance) {
+  return abs_dot(ng0, w) * abs_dot(ng1, w) * inv_pi / sqr(distance);
+}
+
+LitSurfaceSampling::LitSurfaceSampling(const Scene& scene, int max_surfaces)
+    : scene_(&scene),
+      max_surfaces_(max_surfaces),
+      learned_(powers(scene, max_surfaces), max_bytes) {
+  assert(1 <= max_surfaces && max_surfaces <= max_lit_surfaces);
+  for (const Light& light : scene.lights()) squares_.push_back(EmissionSquare::of(light));
 }
 
 bool LitSurfaceSampling::finds(const Surface& surface) {
-  const auto* diffuse = std::get_if<DiffuseBsdf>(&surface.material);
-  return diffuse && !is_black(diffuse->reflectance);
+  const auto* material = std::get_if<DiffuseBsdf>(&surface.material);
+  return material && !is_black(material->reflectance);
 }
 
-float LitSurfaceSampling::probability(size_t light) const {
-  return scene_->lights()[light].is_infinite() ? 0 : power_.probability(light);
-}
-
-std::optional<LitPoint> LitSurfaceSampling::sample(float u_light, Vec2 u_point,
-                                                   Vec2 u_direction) const {
-  const DiscreteSample chosen = power_.sample(u_light);
-  const Light& light = scene_->lights()[chosen.index];
-  const Emitted emitted = std::visit(
-      [&](const auto& l) { return emit(l, u_point, u_direction); }, light.variant());
+std::optional<LitPoint> LitSurfaceSampling::sample(float u_choice, Vec2 u_point,
+                                                   Vec2 u_direction,
+                                                   RandomStream& rng) const {
+  SquaresSample choice = learned_.sample(u_choice, u_direction);
+  const size_t light = choice.index / max_surfaces_;
+  const int surfaces = static_cast<int>(choice.index % max_surfaces_) + 1;
+  const std::optional<EmissionSquare>& square = squares_[light];
+  if (!square || !(choice.density > 0)) return std::nullopt;
+  if (!square->is_invertible())  // directions are all alike
+    choice = {choice.index, u_direction, learned_.probability(choice.index)};
+  const EmittedRay emitted = square->emit(choice.p, u_point);
   if (!(emitted.pdf > 0) || is_black(emitted.emission)) return std::nullopt;
-  const std::optional<SurfaceHit> hit = scene_->intersect_opaque(emitted.ray, infinity);
-  if (!hit || !finds(*hit->surface)) return std::nullopt;
-  return LitPoint{.hit = *hit,
-                  .to_light = -emitted.ray.d,
-                  .distance = hit->t,
-                  .emission = emitted.emission,
-                  .pdf = chosen.probability * emitted.pdf,
-                  .light = chosen.index,
-                  .on_light = emitted.on};
+  LitPoint lit{.hit = {},
+               .flux = emitted.emission / (emitted.pdf * choice.density),
+               .surfaces = 0,
+               .edge = {},
+               .chain = {},
+               .first = {},
+               .light = light,
+               .on_light = emitted.on,
+               .choice = choice};
+  if (!go(lit, emitted.ray)) return std::nullopt;
+  lit.first = lit.hit;
+  while (lit.surfaces < surfaces)
+    if (!bounce(lit, rng)) return std::nullopt;
+  return lit;
 }
 
-float LitSurfaceSampling::density(size_t light, Vec3 to_light, float distance) const {
-  // Both densities have the cosine at the surface and, for area lights, the one at the
-  // light over the squared distance in common.
-  const LightVariant& variant = scene_->lights()[light].variant();
-  const float p = probability(light);
-  if (std::holds_alternative<PointLight>(variant)) return p * inv_4pi / sqr(distance);
-  if (const auto* spot = std::get_if<SpotLight>(&variant)) {
-    const bool is_in_cone = dot(-to_light, spot->axis) >= spot->cos_total;
-    return is_in_cone ? p * cone_pdf(*spot) / sqr(distance) : 0;
+// To the next surface. False if there is none that is found.
+bool LitSurfaceSampling::go(LitPoint& lit, const Ray& ray) const {
+  const std::optional<SurfaceHit> hit = scene_->intersect_opaque(ray, infinity);
+  if (!hit || !finds(*hit->surface)) return false;
+  lit.hit = *hit;
+  lit.edge[lit.surfaces++] = {
+      .ray = {offset_origin(hit->point.p, hit->point.ng, -ray.d), -ray.d},
+      .length = hit->t};
+  return true;
+}
+
+// Off the last surface, by the cosine to its shading normal.
+bool LitSurfaceSampling::bounce(LitPoint& lit, RandomStream& rng) const {
+  const SurfaceHit from = lit.hit;
+  const Vec3 back = lit.to_previous();
+  const Vec3 ns = dot(from.point.ns, back) > 0 ? from.point.ns : -from.point.ns;
+  const Vec3 local = sample_cosine_hemisphere(rng.next_2d());
+  const Vec3 w = Frame::from_z(ns).to_world(local);
+  const float cos_back = dot(from.point.ng, back), cos_w = dot(from.point.ng, w);
+  if (!(cos_back * cos_w > 0)) return false;
+  // Radiance turns at a shading normal as seen from the camera: its cosine belongs to the
+  // direction of the light, see Path::look_at().
+  lit.flux *= diffuse(from).reflectance * (dot(ns, back) / local.z) * (cos_w / cos_back);
+  if (!go(lit, {offset_origin(from.point.p, from.point.ng, w), w})) return false;
+  lit.chain.push_back(diffuse_edge_density(from.point.ng, lit.hit.point.ng, w, lit.hit.t));
+  return true;
+}
+
+std::array<float, max_lit_surfaces> LitSurfaceSampling::densities(size_t light,
+                                                                  Vec3 to_light,
+                                                                  float distance,
+                                                                  float cos_light) const {
+  std::array<float, max_lit_surfaces> densities{};
+  const std::optional<EmissionSquare>& square = squares_[light];
+  if (!square) return densities;
+  const float base = square->density(to_light, distance) * cos_light;
+  const bool is_learned = square->is_invertible();
+  const Vec2 p = is_learned ? square->invert(-to_light) : Vec2{};
+  for (int i = 0; i < max_surfaces_; ++i) {
+    const size_t index = light * max_surfaces_ + static_cast<size_t>(i);
+    densities[i] =
+        base * (is_learned ? learned_.density(index, p) : learned_.probability(index));
   }
-  if (const auto* area_light = std::get_if<AreaLight>(&variant))
-    return p * inv_pi / (area_[light] * (area_light->two_sided ? 2.0f : 1.0f));
-  return 0;
+  return densities;
 }
 
 }  // namespace tyndall

@@ -1,49 +1,105 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <optional>
+#include <vector>
 
-#include "tyndall/sampling/tabulated.h"
+#include "tyndall/guiding/learned_squares.h"
+#include "tyndall/integrators/emission_square.h"
+#include "tyndall/sampling/random.h"
 #include "tyndall/scene/scene.h"
 
 namespace tyndall {
 
-/// A surface point that a finite light shines on, found by a ray out of the light: bright
-/// surfaces near a lamp are found as often as they are bright, where a walk hardly ever
-/// meets them.
-struct LitPoint {
-  SurfaceHit hit;
-  Vec3 to_light;   ///< unit
-  float distance;  ///< to the light
-  Rgb emission;  ///< intensity, or radiance times cosine, that leaves the light towards it
-  float pdf;     ///< of light, light point and direction [1/sr, or 1/(sr unit^2)]
-  size_t light;
-  SurfacePoint on_light;  ///< of area lights
+/// The most surfaces by way of which light walks to a lit point, that point included.
+inline constexpr int max_lit_surfaces = 4;
+
+/// The area densities with which a walk goes from each of some surfaces to the next, the
+/// surface nearest the light first: edge[0] is that of the first lit surface as seen from
+/// the vertex before it on the camera's side [1/scene unit^2].
+struct LitChain {
+  std::array<float, max_lit_surfaces> edge{};
+  int size = 0;
+
+  void push_front(float density);
+  void push_back(float density) {
+    if (size < max_lit_surfaces) edge[size++] = density;
+  }
 };
 
-/// Rays out of finite lights: the light by power, evenly into its cone, from area lights by
-/// area and cosine.
+/// A surface point that a finite light shines on, by way of other surfaces or directly,
+/// found by a walk out of the light: bright surfaces near a lamp are found as often as they
+/// are bright, where a walk from the camera hardly ever meets them.
+struct LitPoint {
+  /// A straight part of the walk, backwards: from a surface to what came before.
+  struct Edge {
+    Ray ray;
+    float length;
+  };
+
+  SurfaceHit hit;
+  /// What arrives at the point, over the density of the walk: emission times reflectances;
+  /// transmittances and what the point itself does are left out.
+  Rgb flux;
+  int surfaces = 1;  ///< that the walk met, this one included
+  std::array<Edge, max_lit_surfaces>
+      edge{};        ///< from each of them, nearest the light first
+  LitChain chain;    ///< between them
+  SurfaceHit first;  ///< the surface nearest the light
+  size_t light;
+  SurfacePoint on_light;  ///< of area lights
+  SquaresSample choice;   ///< of the light, the number of surfaces, and the direction
+
+  Vec3 to_previous() const { return edge[surfaces - 1].ray.d; }
+  Vec3 to_light() const { return edge[0].ray.d; }
+};
+
+/// Walks out of finite lights over surfaces that reflect diffusely, in directions that were
+/// worth most so far: the light, the number of surfaces and the direction are chosen by
+/// what earlier points have contributed, at first by power and evenly into the light's
+/// cone; from area lights by area and cosine.
+///
+/// record() may be called from many threads; update() from one, while nothing else is
+/// called.
 class LitSurfaceSampling {
  public:
-  explicit LitSurfaceSampling(const Scene& scene);
+  /// `max_surfaces` in [1, max_lit_surfaces] bounds the walks.
+  LitSurfaceSampling(const Scene& scene, int max_surfaces);
 
   /// Whether surfaces like this are found: those that reflect light diffusely.
   static bool finds(const Surface& surface);
-  /// Empty if the ray meets no surface that reflects light diffusely.
-  std::optional<LitPoint> sample(float u_light, Vec2 u_point, Vec2 u_direction) const;
+  /// Empty if the walk meets no surface that reflects light diffusely.
+  std::optional<LitPoint> sample(float u_choice, Vec2 u_point, Vec2 u_direction,
+                                 RandomStream& rng) const;
 
-  /// Density of sample() for a surface point at `distance` from the light, which lies in
-  /// the unit direction `to_light`: in the measure of area, up to the factor that turns the
-  /// solid angle of next event estimation from there into the light's area (one if it is a
-  /// delta).
-  float density(size_t light, Vec3 to_light, float distance) const;
+  /// The densities of the first surface of walks over 1, 2 ... surfaces, for a point at
+  /// `distance` from the light, which lies in the unit direction `to_light` under an angle
+  /// of cosine `cos_light`: w.r.t. area, up to the factor that turns the solid angle of
+  /// next event estimation from there into the light's area (one if it is a delta).
+  std::array<float, max_lit_surfaces> densities(size_t light, Vec3 to_light, float distance,
+                                                float cos_light) const;
+
+  /// The point has added `value` to a pixel, in units of the mean pixel.
+  void record(const LitPoint& lit, float value) const {
+    learned_.record(lit.choice, value);
+  }
+  /// Learns from what was recorded so far.
+  void update() { learned_.update(); }
+  size_t memory() const { return learned_.memory(); }  ///< [bytes]
 
  private:
-  float probability(size_t light) const;
+  bool bounce(LitPoint& lit, RandomStream& rng) const;
+  bool go(LitPoint& lit, const Ray& ray) const;
 
   const Scene* scene_;
-  DiscreteDistribution power_;
-  std::vector<float> area_;  // of area lights
+  int max_surfaces_;
+  std::vector<std::optional<EmissionSquare>> squares_;  // none for lights at infinity
+  LearnedSquares learned_;  // of each light in turn, for each number of surfaces
 };
+
+/// Density with which a walk goes from one diffuse surface to another, w.r.t. the area of
+/// the second; the same in both directions.
+float diffuse_edge_density(Vec3 ng0, Vec3 ng1, Vec3 w, float distance);
 
 }  // namespace tyndall

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "tyndall/integrators/integrator.h"
@@ -25,11 +26,12 @@ std::unique_ptr<Integrator> make_integrator(const Scene& scene,
   if (settings.integrator == "volpath") return tracer({});
   if (settings.integrator == "equiangular") return tracer({.single = true});
   if (settings.integrator == "learned")
-    return tracer({.single = true,
-                   .dual = true,
-                   .min_distance_ratio = 1,
-                   .visibility = true,
-                   .lit_surfaces = true});
+    return tracer(
+        {.single = true,
+         .dual = true,
+         .min_distance_ratio = 1,
+         .visibility = true,
+         .lit_surfaces = std::clamp(settings.max_depth - 1, 1, max_lit_surfaces)});
   if (settings.integrator == "jis") return tracer({.single = true, .dual = true});
   throw std::invalid_argument(fmt::format("unknown integrator \"{}\"; there are: {}",
                                           settings.integrator,

@@ -11,6 +11,8 @@ namespace {
 
 // Paths this short are never ended by chance.
 constexpr int roulette_free_depth = 1;
+// Ends of legs that are seen less clearly are left to chance.
+constexpr float least_end_transmittance = 0.01f;
 
 }  // namespace
 
@@ -24,6 +26,26 @@ Path::Path(const Scene& scene, const PathRules& rules, const Ray& ray, Sampler& 
       pivots_(scene, tracking_.next_bits()) {
   start_.p = ray.o;
   if (rules.is_chromatic) hero_ = std::min(static_cast<int>(3 * sampler.next_1d()), 2);
+}
+
+void Path::look_at_end(Leg& leg) {
+  saw_end_ = rules_.connections && depth_ == 0 && !leg_.is_empty() &&
+             leg_.proxy().transmittance(far_distance) > least_end_transmittance;
+  if (!saw_end_) return;
+  const Rgb beta = beta_;
+  const Medium* const medium = medium_;
+  beta_ *= leg_transmittance(leg, leg.length());
+  medium_ = leg.end_medium();
+  if (const SurfaceHit* hit = leg.end()) {
+    add_surface_emission(*hit);
+    if (set_vertex(Vertex(*hit, -ray_.d, medium_), hit->t)) connect_vertex();
+    vertex_.reset();
+    depth_ = 0;
+  } else {
+    add_environment();
+  }
+  beta_ = beta;
+  medium_ = medium;
 }
 
 bool Path::advance(Leg& leg) {
@@ -40,16 +62,17 @@ bool Path::advance(Leg& leg) {
   medium_ = leg.end_medium();
   const SurfaceHit* hit = leg.end();
   if (!hit) {
-    add_environment();
+    if (!saw_end_) add_environment();
     return false;
   }
-  add_surface_emission(*hit);
+  if (!saw_end_) add_surface_emission(*hit);
   return set_vertex(Vertex(*hit, -ray_.d, medium_), hit->t);
 }
 
 bool Path::set_vertex(const Vertex& vertex, float t) {
   vertex_ = vertex;
   t_vertex_ = t;
+  chain_ = chain_to(vertex, t);
   if (depth_ == 0) {
     result_.albedo = vertex.albedo();
     result_.normal = vertex.normal();

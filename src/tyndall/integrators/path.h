@@ -42,6 +42,9 @@ class Path {
   /// Connects vertices on the leg, beyond what the walk will choose, to lights: adds the
   /// light of paths with one and with two more scattering vertices in media.
   void connect(Leg& leg);
+  /// Adds the light of what the first leg ends at, as far as it is seen through media: the
+  /// walk gets there by chance only.
+  void look_at_end(Leg& leg);
   /// Goes along the leg to the next scattering vertex; adds what glows on the way. False if
   /// the path ends.
   bool advance(Leg& leg);
@@ -77,12 +80,13 @@ class Path {
     LightEnd end;
   };
   Connection connect_to(const Vertex& vertex, const SelectedLight& selected);
+  void connect_vertex();
   std::optional<SelectedLight> select_light(Vec3 p, float u) const;
   float light_probability(Vec3 p, size_t light) const;
   bool is_left_to_connections(size_t light);
   float direct_weight(const LightEnd& end);
   float hit_weight(size_t light, float light_pdf, float distance);
-  bool counts(int more_vertices) const;
+  bool counts(int in_media, int on_surfaces = 0) const;
   // What one connection finds, before spectral MIS.
   Rgb connect_single(Leg& leg);
   Rgb connect_dual(Leg& leg);
@@ -93,14 +97,19 @@ class Path {
   struct LitView {
     Vec3 w;  // towards it, unit
     float distance;
-    Rgb light;   // that arrives at x from it, over the density of the lit point
-    LegStart y;  // the lit point
-    LightEnd end;
+    Rgb light;  // that arrives at x from it, over the density of the lit point
   };
   std::optional<LitPoint> sample_lit_point();
+  Rgb record(const LitPoint& lit, Rgb value) const;
+  Rgb transmittance_to_light(const LitPoint& lit, const Medium* medium);
+  LightEnd light_end(const LitPoint& lit) const;
   std::optional<LitView> look_at(const LitPoint& lit, const Vertex& x);
+  float lit_weight(const LitPoint& lit, float edge, const LitChain& beyond) const;
   Rgb connect_lit(Leg& leg);  // from the leg
   Rgb connect_lit();          // from the vertex
+  float edge_density(const LegStart& x, const ConnectionLeg& before, const SurfacePoint& y,
+                     Vec3 w, float distance) const;
+  LitChain chain_to(const Vertex& y, float distance) const;
   Rgb leg_transmittance(Leg& leg, float t);
 
   const Scene& scene_;
@@ -113,8 +122,9 @@ class Path {
   Rgb beta_{1};
   Rgb spectral_{1};
   int hero_ = 0;
-  int depth_ = 0;  // scattering vertices so far
-  int order_ = 0;  // of them, in media
+  int depth_ = 0;         // scattering vertices so far
+  int order_ = 0;         // of them, in media
+  bool saw_end_ = false;  // of this leg
   float eta_scale_ = 1;
   std::optional<Vertex> vertex_;
   float walk_found_ = 0;  // luminance, without connections
@@ -122,6 +132,7 @@ class Path {
 
   // The last legs, for the densities of techniques that the walk did not use.
   Pivots pivots_;
+  LitChain chain_;  // to vertex_; while the walk is on a leg, to where that starts
   ConnectionLeg leg_, leg_before_, leg_two_before_;
   LegStart start_;         // of leg_
   LegStart start_before_;  // of leg_before_

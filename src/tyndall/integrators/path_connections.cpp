@@ -17,10 +17,10 @@ float Path::light_probability(Vec3 p, size_t light) const {
   return rules_.connections->light_choice().at_point(p).probability(light);
 }
 
-// Whether paths with so many more scattering vertices in media are wanted.
-bool Path::counts(int more_vertices) const {
-  return depth_ + more_vertices <= rules_.max_depth &&
-         rules_.orders.contains(order_ + more_vertices);
+// Whether paths with so many more vertices in media and on surfaces are wanted.
+bool Path::counts(int in_media, int on_surfaces) const {
+  return depth_ + in_media + on_surfaces <= rules_.max_depth &&
+         rules_.orders.contains(order_ + in_media);
 }
 
 Path::Connection Path::connect_to(const Vertex& vertex, const SelectedLight& selected) {
@@ -47,8 +47,14 @@ Path::Connection Path::connect_to(const Vertex& vertex, const SelectedLight& sel
 }
 
 void Path::estimate_direct() {
+  const bool is_done = saw_end_ && !vertex_->is_in_medium();
+  if (!is_done) connect_vertex();
+}
+
+void Path::connect_vertex() {
   if (vertex_->is_specular()) return;
-  if (rules_.connections && rules_.connections->lit_surfaces() && !vertex_->is_in_medium())
+  if (rules_.connections && rules_.connections->lit_surfaces() &&
+      !vertex_->is_in_medium() && counts(0, 1))
     spend(Effort::lit_from_vertex, [&] { return connect_lit(); });
   const std::optional<SelectedLight> selected =
       select_light(vertex_->p(), sampler_.next_1d());
@@ -74,9 +80,8 @@ float Path::direct_weight(const LightEnd& end) {
   const TailDensities densities =
       vertex_->is_in_medium()
           ? tail_densities(*rules_.connections, leg_before_, start_, leg_, t_vertex_, end)
-          : surface_tail_densities(*rules_.connections, leg_before_, start_,
-                                   start_of_leg(*vertex_, t_vertex_, 0, false), t_vertex_,
-                                   end);
+          : surface_tail_densities(*rules_.connections, chain_, end,
+                                   abs_dot(vertex_->ng(), end.to_light));
   return densities.weight(densities.direct);
 }
 
@@ -95,8 +100,8 @@ float Path::hit_weight(size_t light, float light_pdf, float distance) {
   const TailDensities densities =
       start_.is_in_medium ? tail_densities(*rules_.connections, leg_two_before_,
                                            start_before_, leg_before_, start_.t, end)
-                          : surface_tail_densities(*rules_.connections, leg_two_before_,
-                                                   start_before_, start_, start_.t, end);
+                          : surface_tail_densities(*rules_.connections, chain_, end,
+                                                   abs_dot(start_.ng, ray_.d));
   return densities.weight(densities.hit);
 }
 
@@ -109,8 +114,7 @@ void Path::connect(Leg& leg) {
   if (counts(1)) spend(Effort::single, [&] { return connect_single(leg); });
   if (counts(2) && rules_.connections->settings().dual)
     spend(Effort::dual, [&] { return connect_dual(leg); });
-  if (rules_.connections->lit_surfaces() && depth_ + 2 <= rules_.max_depth &&
-      rules_.orders.contains(order_ + 1))
+  if (rules_.connections->lit_surfaces() && counts(1, 1))
     spend(Effort::lit_from_leg, [&] { return connect_lit(leg); });
 }
 

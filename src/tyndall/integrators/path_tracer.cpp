@@ -47,7 +47,10 @@ float PathTracer::pilot_radiance(const RenderSettings& settings) const {
 
 uint32_t PathTracer::prepare(uint32_t first) {
   if (!budget_) return unlimited;
-  if (first > 0) budget_->update();
+  if (first > 0) {
+    budget_->update();
+    connections_->update();
+  }
   if (first >= last_update) return unlimited;
   return first == 0 ? 1 : first * 4;
 }
@@ -66,6 +69,7 @@ PathSample PathTracer::Li(const Ray& ray, Sampler& sampler) const {
   do {
     Leg leg(scene_, path.ray(), path.medium());
     path.connect(leg);
+    path.look_at_end(leg);
     if (!path.advance(leg)) break;
     path.estimate_direct();
   } while (path.scatter());

@@ -54,21 +54,15 @@ TailDensities tail_densities(const ConnectionContext& context, ConnectionLeg& be
 }
 
 TailDensities surface_tail_densities(const ConnectionContext& context,
-                                     const ConnectionLeg& before, const LegStart& x,
-                                     const LegStart& y, float distance,
-                                     const LightEnd& end) {
+                                     const LitChain& chain, const LightEnd& end,
+                                     float cos_light) {
   TailDensities densities{.direct = end.probability * end.pdf, .hit = end.pdf_direction};
-  const LitSurfaceSampling* lit = context.lit_surfaces();
-  if (!lit || x.is_specular || !y.can_be_lit) return densities;
-  densities.lit = lit->density(end.light, end.to_light, end.distance);
-  float walk = x.pdf_direction / sqr(distance);
-  if (x.is_in_medium && densities.lit > 0) {
-    const std::optional<ConnectionLeg::Lit> technique = before.lit(y.p, y.ng, end.to_light);
-    densities.lit *= technique ? technique->pdf_t(x.t) : 0;
-    walk *= before.proxy().collision_pdf_t(x.t);
-  }
-  densities.direct *= walk;
-  densities.hit *= walk;
+  if (chain.size == 0) return densities;
+  // The density of a connection across an edge lacks that edge, and has that of the walk
+  // out of the light instead; all others are the same both ways.
+  const std::array<float, max_lit_surfaces> first =
+      context.lit_surfaces()->densities(end.light, end.to_light, end.distance, cos_light);
+  for (int i = 0; i < chain.size; ++i) densities.lit[i] = first[i] / chain.edge[i];
   return densities;
 }
 

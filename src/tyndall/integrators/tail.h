@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+
 #include "tyndall/integrators/connection_leg.h"
 #include "tyndall/integrators/vertex.h"
 
@@ -30,10 +32,12 @@ struct TailDensities {
   float hit = 0;     ///< a walk that hits the light
   float single = 0;  ///< a walk up to the vertex before the last, then a single connection
   float dual = 0;    ///< a walk up to two vertices before the last, then a dual connection
-  float lit = 0;     ///< a walk up to one or two before, then a connection to a lit surface
+  /// a walk, then a connection to a point that light reached over 1, 2 ... surfaces
+  std::array<float, max_lit_surfaces> lit{};
 
   float weight(float technique) const {
-    const float sum = direct + hit + single + dual + lit;
+    float sum = direct + hit + single + dual;
+    for (const float density : lit) sum += density;
     return technique > 0 && sum < infinity ? technique / sum : 0;
   }
 };
@@ -47,10 +51,10 @@ TailDensities tail_densities(const ConnectionContext& context, ConnectionLeg& be
                              const LegStart& x, ConnectionLeg& leg, float t,
                              const LightEnd& end);
 
-/// A path whose last vertex lies on a surface, `y`, at `distance` from x.
+/// A path whose last vertex lies on a surface that sees the light under an angle of cosine
+/// `cos_light`; `chain` holds the edges of the walk to that surface.
 TailDensities surface_tail_densities(const ConnectionContext& context,
-                                     const ConnectionLeg& before, const LegStart& x,
-                                     const LegStart& y, float distance,
-                                     const LightEnd& end);
+                                     const LitChain& chain, const LightEnd& end,
+                                     float cos_light);
 
 }  // namespace tyndall

@@ -42,6 +42,8 @@ class Vertex {
 
   /// A surface that can be found by rays out of lights.
   bool can_be_lit() const;
+  /// Precondition: on a surface.
+  const SurfacePoint& point() const { return hit_->point; }
   /// Unit geometric normal; zero in a medium.
   Vec3 ng() const { return hit_ ? hit_->point.ng : Vec3{}; }
 

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tyndall/integrators/emission_square.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tyndall/geometry/intersector.h"
+#include "tyndall/sampling/warps.h"
+
+namespace tyndall {
+namespace {
+
+// The local direction of a flat light, on either side if it has two; and back.
+Vec3 sample_side(Vec2 u, bool two_sided) {
+  if (!two_sided) return sample_cosine_hemisphere(u);
+  const bool is_back = u.x >= 0.5f;
+  u.x = std::min(is_back ? 2 * u.x - 1 : 2 * u.x, one_minus_epsilon);
+  const Vec3 w = sample_cosine_hemisphere(u);
+  return {w.x, w.y, is_back ? -w.z : w.z};
+}
+
+Vec2 invert_side(Vec3 w, bool two_sided) {
+  const Vec2 u = invert_cosine_hemisphere(w);
+  return two_sided ? Vec2{0.5f * u.x + (w.z < 0 ? 0.5f : 0.0f), u.y} : u;
+}
+
+// A full sphere that is not stretched: where its normals point from, and how far.
+bool is_round(const Sphere& sphere) {
+  if (!sphere.is_full()) return false;
+  const Bounds3 box = sphere.bounds();
+  const Vec3 size = box.max - box.min;
+  return std::abs(size.x - size.y) <= 1e-4f * size.x &&
+         std::abs(size.x - size.z) <= 1e-4f * size.x;
+}
+
+// The normal of all of a shape; empty if it varies.
+std::optional<Vec3> common_normal(const Shape& shape) {
+  constexpr int probes = 16;
+  const Vec3 n = sample_area(shape, {0.5f, 0.5f}).point.ng;
+  for (int i = 0; i < probes; ++i) {
+    const Vec2 u{(static_cast<float>(i) + 0.5f) / probes,
+                 std::fmod(0.618034f * static_cast<float>(i + 1), 1.0f)};
+    if (!(dot(sample_area(shape, u).point.ng, n) > 1 - 1e-5f)) return std::nullopt;
+  }
+  return n;
+}
+
+}  // namespace
+
+std::optional<EmissionSquare> EmissionSquare::of(const Light& light) {
+  const LightVariant& variant = light.variant();
+  const Frame upright = Frame::from_z({0, 0, 1});
+  if (std::holds_alternative<PointLight>(variant))
+    return EmissionSquare(light, Kind::point, upright, 0);
+  if (const auto* spot = std::get_if<SpotLight>(&variant))
+    return EmissionSquare(light, Kind::spot, Frame::from_z(spot->axis), 0);
+  const auto* emitter = std::get_if<AreaLight>(&variant);
+  if (!emitter) return std::nullopt;
+  const float a = area(*emitter->shape);
+  const auto* sphere = std::get_if<Sphere>(emitter->shape);
+  if (sphere && is_round(*sphere) && !emitter->two_sided)
+    return EmissionSquare(light, Kind::sphere, upright, a);
+  if (!(a > 0)) return EmissionSquare(light, Kind::bent, upright, a);
+  if (const std::optional<Vec3> n = common_normal(*emitter->shape))
+    return EmissionSquare(light, Kind::flat, Frame::from_z(*n), a);
+  return EmissionSquare(light, Kind::bent, upright, a);
+}
+
+const AreaLight& EmissionSquare::area_light() const {
+  return std::get<AreaLight>(light_->variant());
+}
+
+EmittedRay EmissionSquare::emit(Vec2 direction, Vec2 point) const {
+  if (const auto* light = std::get_if<PointLight>(&light_->variant()))
+    return {{light->p, sample_uniform_sphere(direction)}, light->I, inv_4pi};
+  if (const auto* light = std::get_if<SpotLight>(&light_->variant())) {
+    const float width = 1 - light->cos_total;
+    const Vec3 w = frame_.to_world(sample_uniform_cone(direction, width));
+    return {{light->p, w}, light->intensity(w), uniform_cone_pdf(width)};
+  }
+  return kind_ == Kind::sphere ? emit_sphere(direction, point)
+                               : emit_area(direction, point);
+}
+
+// The direction first, uniform; then a point whose normal is about it by the cosine: the
+// same density as by area and cosine.
+EmittedRay EmissionSquare::emit_sphere(Vec2 direction, Vec2 point) const {
+  const auto& sphere = std::get<Sphere>(*area_light().shape);
+  const Bounds3 box = sphere.bounds();
+  const Vec3 w = sample_uniform_sphere(direction);
+  const Vec3 local = sample_cosine_hemisphere(point);
+  const Vec3 ng = Frame::from_z(w).to_world(local);
+  const float r = 0.5f * (box.max.x - box.min.x);
+  const Vec3 p = box.center() + ng * (sphere.flip_normals ? -r : r);
+  return {{offset_origin(p, ng, w), w},
+          area_light().L * local.z,
+          local.z * inv_pi / area_,
+          {.p = p, .ng = ng, .ns = ng, .uv = {}}};
+}
+
+EmittedRay EmissionSquare::emit_area(Vec2 direction, Vec2 point) const {
+  const AreaLight& light = area_light();
+  const ShapeSample s = sample_area(*light.shape, point);
+  const Vec3 local = sample_side(direction, light.two_sided);
+  const Frame frame = kind_ == Kind::flat ? frame_ : Frame::from_z(s.point.ng);
+  const Vec3 w = frame.to_world(local);
+  const float cosine = magnitude(local.z), sides = light.two_sided ? 2.0f : 1.0f;
+  return {{offset_origin(s.point.p, s.point.ng, w), w},
+          light.L * cosine,
+          s.pdf_area * cosine * inv_pi / sides,
+          s.point};
+}
+
+Vec2 EmissionSquare::invert(Vec3 w) const {
+  switch (kind_) {
+    case Kind::point:
+    case Kind::sphere:
+      return invert_uniform_sphere(w);
+    case Kind::spot:
+      return invert_uniform_cone(frame_.to_local(w),
+                                 1 - std::get<SpotLight>(light_->variant()).cos_total);
+    case Kind::flat:
+      return invert_side(frame_.to_local(w), area_light().two_sided);
+    case Kind::bent:
+      break;
+  }
+  return {0.5f, 0.5f};
+}
+
+float EmissionSquare::density(Vec3 to_light, float distance) const {
+  // All ways to find the point have the cosine at the surface and, for area lights, the one
+  // at the light over the squared distance in common.
+  if (kind_ == Kind::point) return inv_4pi / sqr(distance);
+  if (const auto* spot = std::get_if<SpotLight>(&light_->variant())) {
+    const bool is_in_cone = dot(-to_light, spot->axis) >= spot->cos_total;
+    return is_in_cone ? uniform_cone_pdf(1 - spot->cos_total) / sqr(distance) : 0;
+  }
+  return area_ > 0 ? inv_pi / (area_ * (area_light().two_sided ? 2.0f : 1.0f)) : 0;
+}
+
+}  // namespace tyndall

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+// Connections to surfaces that lights shine on, against plain path tracing.
+#include "tyndall/integrators/lit_surface.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "scenes.h"
+#include "support/statistical_tests.h"
+#include "tyndall/sampling/warps.h"
+
+namespace tyndall {
+namespace {
+
+// A lamp under an open shade in a foggy room of diffuse walls: light reaches the camera
+// over the shade's inside and the walls.
+SceneDescription shaded_room(const std::string& lamp) {
+  SceneDescription d;
+  d.camera = test::camera({-0.8f, 0.3f, -0.8f}, {0.3f, 0, 0.3f}, 70, {8, 8});
+  d.media.push_back(test::grey_fog(0.3f, 0.05f, 0.5f));
+  Surface room = test::boundary_box(1, 0, 0);
+  room.material = DiffuseBsdf{Rgb(0.6f)};
+  d.surfaces.push_back(room);
+  Surface shade = test::boundary_sphere(0.3f, {0.2f, 0.2f, 0.2f}, 0, 0);
+  std::get<Sphere>(shade.shape).z_min = -0.1f;  // open below
+  shade.material = DiffuseBsdf{Rgb(0.7f)};
+  d.surfaces.push_back(shade);
+  const Vec3 p{0.2f, 0.2f, 0.25f};
+  if (lamp == "point") d.lights.push_back(Light(PointLight{p, Rgb(1)}));
+  if (lamp == "spot")
+    d.lights.push_back(Light(SpotLight{.p = p,
+                                       .axis = {0, 0, -1},
+                                       .I = Rgb(3),
+                                       .cos_total = 0.3f,
+                                       .cos_falloff_start = 0.6f}));
+  if (lamp == "sphere" || lamp == "disk") {
+    Surface bulb = test::boundary_sphere(0.06f, p, 0, 0);
+    if (lamp == "disk")
+      bulb.shape = Disk{Transform::translate(p), 0, 0.1f, 0, 2 * pi, true};
+    bulb.material = DiffuseBsdf{Rgb(0)};
+    bulb.emission = AreaEmission{Rgb(30), lamp == "disk"};
+    d.surfaces.push_back(bulb);
+  }
+  return d;
+}
+
+class LitSurfaceTest : public testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Lamps, LitSurfaceTest,
+                         testing::Values("point", "spot", "sphere", "disk"));
+
+struct Mean {
+  double value = 0, variance = 0;
+};
+
+Mean mean_of_picture(const Scene& scene, const std::string& integrator,
+                     ScatteringOrders orders, uint32_t spp) {
+  RenderSettings s = test::settings(integrator, 7, orders);
+  s.resolution = s.crop_max = {8, 8};
+  s.samples_per_pixel = spp;
+  const Image image = render(scene, s).film.develop();
+  Mean mean;
+  for (int i = 0; i < 64; ++i) {
+    mean.value += double{image.find("G")->values[i]} / 64;
+    mean.variance += double{image.find("variance.G")->values[i]} / (64 * 64);
+  }
+  return mean;
+}
+
+void expect_agreement(const Scene& scene, ScatteringOrders orders, double precision) {
+  const Mean learned = mean_of_picture(scene, "learned", orders, 700);
+  const Mean reference = mean_of_picture(scene, "volpath", orders, 5000);
+  const double error = std::sqrt(learned.variance + reference.variance);
+  EXPECT_LT(std::abs(learned.value - reference.value), 3 * error)
+      << learned.value << " instead of " << reference.value;
+  EXPECT_LT(error, precision * reference.value);
+}
+
+TEST_P(LitSurfaceTest, AgreesWithPathTracingOverSurfaces) {
+  expect_agreement(Scene(shaded_room(GetParam())), {0, 0}, 0.06);
+}
+
+TEST_P(LitSurfaceTest, AgreesWithPathTracingInFog) {
+  expect_agreement(Scene(shaded_room(GetParam())), {1, 20}, 0.06);
+}
+
+// What sample() says of a direct walk is what densities() says of its first surface.
+TEST_P(LitSurfaceTest, DensitiesAreThoseOfTheSamples) {
+  const Scene scene(shaded_room(GetParam()));
+  LitSurfaceSampling sampling(scene, 3);
+  RandomStream random(5);
+  for (int pass = 0; pass < 2; ++pass) {
+    for (int i = 0; i < 2000; ++i) {
+      const float u = random.next_1d();
+      const Vec2 u_point = random.next_2d();
+      const std::optional<LitPoint> lit =
+          sampling.sample(u, u_point, random.next_2d(), random);
+      if (!lit) continue;
+      sampling.record(*lit, luminance(lit->flux));
+      const float distance = lit->edge[0].length;
+      const float cosine = abs_dot(lit->first.point.ng, lit->to_light());
+      const std::array<float, max_lit_surfaces> densities =
+          sampling.densities(lit->light, lit->to_light(), distance, cosine);
+      const bool is_area = lit->on_light.ng != Vec3{};
+      const float base =
+          is_area
+              ? inv_pi / area(*std::get<AreaLight>(scene.lights()[0].variant()).shape) /
+                    (GetParam() == "disk" ? 2.0f : 1.0f)
+              : (GetParam() == "spot" ? uniform_cone_pdf(0.7f) : inv_4pi) / sqr(distance);
+      const float expected = lit->choice.density * base * cosine;
+      // Where the direction is at the border of a cell, rounding may choose the other.
+      if (std::abs(densities[lit->surfaces - 1] - expected) > 1e-3f * expected) {
+        const float x = lit->choice.p.x * 32, y = lit->choice.p.y * 32;
+        EXPECT_LT(std::min(std::abs(x - std::round(x)), std::abs(y - std::round(y))),
+                  0.01f);
+      }
+    }
+    sampling.update();
+  }
+}
+
+// Walks over more surfaces start from the light and carry what is left of its power.
+TEST(LitSurface, WalksFromTheLight) {
+  const Scene scene(shaded_room("point"));
+  const LitSurfaceSampling sampling(scene, 4);
+  RandomStream random(6);
+  int longest = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const float u = random.next_1d();
+    const Vec2 u_point = random.next_2d();
+    const std::optional<LitPoint> lit =
+        sampling.sample(u, u_point, random.next_2d(), random);
+    if (!lit) continue;
+    longest = std::max(longest, lit->surfaces);
+    EXPECT_EQ(lit->chain.size, lit->surfaces - 1);
+    const Vec3 start = lit->first.point.p + lit->to_light() * lit->edge[0].length;
+    EXPECT_NEAR(distance(start, {0.2f, 0.2f, 0.25f}), 0, 1e-4f);
+    EXPECT_GT(lit->flux.r, 0);
+  }
+  EXPECT_EQ(longest, 4);
+}
+
+}  // namespace
+}  // namespace tyndall
