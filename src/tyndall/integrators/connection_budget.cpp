@@ -10,7 +10,7 @@ namespace tyndall {
 namespace {
 
 // Rays that one connection, and one leg of the walk with its next event estimation, cost.
-constexpr std::array<double, 4> effort_cost{2, 4, 4, 3};
+constexpr std::array<double, 5> effort_cost{2, 4, 4, 3, 4};
 constexpr double leg_cost = 2.5;
 
 // The walk's variance is mostly that of bright pixels; dark ones need their connections

@@ -8,7 +8,7 @@
 namespace tyndall {
 
 /// What a path can spend rays on besides walking.
-enum class Effort { single, dual, lit_from_leg, lit_from_vertex };
+enum class Effort { single, dual, lit_from_leg, lit_from_vertex, glow };
 
 /// How often each connection is made, by kind and by how far along the path: as often as
 /// its variance is worth its rays, by measurement on the render's first samples.
@@ -43,7 +43,7 @@ class ConnectionBudget {
 
  private:
   static constexpr int depths = 6;  // the last stands for all beyond
-  static constexpr size_t efforts = 4;
+  static constexpr size_t efforts = 5;
 
   struct Cell {
     float count = 2;  // two, until something is known

@@ -81,6 +81,8 @@ struct LegStart {
   bool is_in_medium = false;
   Vec3 ng;                  ///< of a surface
   bool can_be_lit = false;  ///< a surface that LitSurfaceSampling finds
+  /// Of a surface from which glow is connected to; else null.
+  const Medium* glowing_medium = nullptr;
 };
 
 /// The densities of the scattering vertices that connections put on one leg.

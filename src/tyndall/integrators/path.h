@@ -90,6 +90,7 @@ class Path {
   // What one connection finds, before spectral MIS.
   Rgb connect_single(Leg& leg);
   Rgb connect_dual(Leg& leg);
+  Rgb connect_glow();  // from the vertex
   template <typename Connect>
   void spend(Effort effort, const Connect& connect);
 

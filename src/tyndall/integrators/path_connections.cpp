@@ -56,6 +56,9 @@ void Path::connect_vertex() {
   if (rules_.connections && rules_.connections->lit_surfaces() &&
       !vertex_->is_in_medium() && counts(0, 1))
     spend(Effort::lit_from_vertex, [&] { return connect_lit(); });
+  if (rules_.connections && rules_.connections->settings().dual &&
+      vertex_->glowing_medium() && counts(1))
+    spend(Effort::glow, [&] { return connect_glow(); });
   const std::optional<SelectedLight> selected =
       select_light(vertex_->p(), sampler_.next_1d());
   if (!selected || !counts(0) || is_left_to_connections(selected->index)) return;

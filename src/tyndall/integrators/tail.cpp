@@ -19,6 +19,18 @@ float dual_density(const ConnectionContext& context, ConnectionLeg& before,
   return dual->pdf_t(x.t) * direction.pdf(leg.ray().d) * before.light_probability(light);
 }
 
+// Density with which a connection to glow from the surface x chooses the light and the
+// direction of the leg.
+float glow_density(const ConnectionContext& context, const LegStart& x,
+                   const ConnectionLeg& leg, size_t light) {
+  if (x.is_specular || !x.glowing_medium || !context.settings().dual) return 0;
+  const std::optional<Vec3> pivot = leg.pivot(light);
+  if (!pivot) return 0;
+  const DoubleScatteringDirection direction(context.tables(*x.glowing_medium), x.p, *pivot);
+  return direction.pdf(leg.ray().d) *
+         context.light_choice().at_point(x.p).probability(light);
+}
+
 }  // namespace
 
 LegStart start_of_leg(const Vertex& vertex, float t, float pdf_direction,
@@ -29,7 +41,8 @@ LegStart start_of_leg(const Vertex& vertex, float t, float pdf_direction,
           .is_specular = is_specular,
           .is_in_medium = vertex.is_in_medium(),
           .ng = vertex.ng(),
-          .can_be_lit = vertex.can_be_lit()};
+          .can_be_lit = vertex.can_be_lit(),
+          .glowing_medium = vertex.glowing_medium()};
 }
 
 TailDensities tail_densities(const ConnectionContext& context, ConnectionLeg& before,
@@ -44,7 +57,9 @@ TailDensities tail_densities(const ConnectionContext& context, ConnectionLeg& be
   densities.direct = 0;
   const float dual = dual_density(context, before, x, leg, end.light);
   if (!(dual > 0)) {
-    densities.single = last * leg.light_probability(end.light);
+    densities.single = last * leg.light_probability(end.light) * x.pdf_direction;
+    densities.glow = last * glow_density(context, x, leg, end.light);
+    densities.hit *= x.pdf_direction;
     return densities;
   }
   densities.dual = dual * last;

@@ -31,12 +31,13 @@ struct TailDensities {
   float direct = 0;  ///< a walk, then next event estimation
   float hit = 0;     ///< a walk that hits the light
   float single = 0;  ///< a walk up to the vertex before the last, then a single connection
+  float glow = 0;    ///< a walk to the surface before the last vertex, then to its glow
   float dual = 0;    ///< a walk up to two vertices before the last, then a dual connection
   /// a walk, then a connection to a point that light reached over 1, 2 ... surfaces
   std::array<float, max_lit_surfaces> lit{};
 
   float weight(float technique) const {
-    float sum = direct + hit + single + dual;
+    float sum = direct + hit + single + glow + dual;
     for (const float density : lit) sum += density;
     return technique > 0 && sum < infinity ? technique / sum : 0;
   }
