@@ -38,7 +38,17 @@ void throw_on_error(RTCDevice device) {
 struct InstanceTable {
   std::vector<InstanceMaps> maps;  // in the order of their geometry indices
   uint32_t first = 0;              // geometry index of the first
+
+  // Null in the world.
+  const InstanceMaps* of(uint32_t id) const {
+    return id == RTC_INVALID_GEOMETRY_ID ? nullptr : &maps[id - first];
+  }
 };
+
+PreciseRay precise_ray(const Ray& world_ray, const InstanceMaps* instance) {
+  const PreciseRay ray{.o = Vec3d(world_ray.o), .d = Vec3d(world_ray.d)};
+  return instance ? instance->group_ray(ray) : ray;
+}
 
 // A ray on its way through Embree. The first member is all that Embree knows of it.
 struct RayContext {
@@ -47,16 +57,10 @@ struct RayContext {
   float t_max;
   const InstanceTable* instances;
 
-  const InstanceMaps* instance(uint32_t id) const {
-    return id == RTC_INVALID_GEOMETRY_ID ? nullptr
-                                         : &instances->maps[id - instances->first];
-  }
-  PreciseRay ray_in(const InstanceMaps* instance) const {
-    const PreciseRay ray{.o = Vec3d(world_ray->o), .d = Vec3d(world_ray->d)};
-    return instance ? instance->group_ray(ray) : ray;
-  }
   // The ray where the callback is: in an instance or in the world.
-  PreciseRay current_ray() const { return ray_in(instance(embree.instID[0])); }
+  PreciseRay current_ray() const {
+    return precise_ray(*world_ray, instances->of(embree.instID[0]));
+  }
   static const RayContext& of(const RTCIntersectContext* embree) {
     return *reinterpret_cast<const RayContext*>(embree);
   }
@@ -68,6 +72,14 @@ const TargetShape& target_of(const void* user_data) {
   return *static_cast<const TargetShape*>(user_data);
 }
 
+// Whether float cannot tell on which side of the triangle the ends of the ray are.
+bool may_be_at_end(const TargetShape& target, const RTCRay& ray, const RTCHit& hit,
+                   float t_max) {
+  const float slope =
+      std::abs(hit.Ng_x * ray.dir_x + hit.Ng_y * ray.dir_y + hit.Ng_z * ray.dir_z);
+  return target.may_be_at_end(ray.tfar, t_max, slope);
+}
+
 // Drops hits of the triangles that a ray starts from or ends on, which float cannot tell.
 void drop_hit_of_ends(const RTCFilterFunctionNArguments* args) {
   assert(args->N == 1);
@@ -75,10 +87,8 @@ void drop_hit_of_ends(const RTCFilterFunctionNArguments* args) {
   const auto& ray = *reinterpret_cast<const RTCRay*>(args->ray);
   const auto& hit = *reinterpret_cast<const RTCHit*>(args->hit);
   const RayContext& context = RayContext::of(args->context);
-  const float slope =
-      std::abs(hit.Ng_x * ray.dir_x + hit.Ng_y * ray.dir_y + hit.Ng_z * ray.dir_z);
   if (args->context->instID[0] == RTC_INVALID_GEOMETRY_ID &&
-      !target.may_be_at_end(ray.tfar, context.t_max, slope))
+      !may_be_at_end(target, ray, hit, context.t_max))
     return;
   if (!target.is_between_ends(hit.primID, context.current_ray(), context.t_max))
     args->valid[0] = 0;
@@ -94,13 +104,11 @@ void intersect_user_geometry(const RTCIntersectFunctionNArguments* args) {
   if (!args->valid[0]) return;
   auto& [ray, hit] = *reinterpret_cast<RTCRayHit*>(args->rayhit);
   const PreciseRay current = RayContext::of(args->context).current_ray();
-  const std::optional<PreciseHit> found =
+  const std::optional<double> t =
       target_of(args->geometryUserPtr)
-          .intersect(args->primID, current, static_cast<double>(ray.tfar));
-  if (!found) return;
-  ray.tfar = static_cast<float>(found->t);
-  hit.u = found->uv.x;
-  hit.v = found->uv.y;
+          .distance(args->primID, current, static_cast<double>(ray.tfar));
+  if (!t) return;
+  ray.tfar = static_cast<float>(*t);
   hit.primID = args->primID;
   hit.geomID = args->geomID;
   hit.instID[0] = args->context->instID[0];
@@ -112,7 +120,7 @@ void occlude_user_geometry(const RTCOccludedFunctionNArguments* args) {
   auto& ray = *reinterpret_cast<RTCRay*>(args->ray);
   const PreciseRay current = RayContext::of(args->context).current_ray();
   if (target_of(args->geometryUserPtr)
-          .intersect(args->primID, current, static_cast<double>(ray.tfar)))
+          .distance(args->primID, current, static_cast<double>(ray.tfar)))
     ray.tfar = -infinity;
 }
 
@@ -145,6 +153,23 @@ Handle<RTCGeometry> new_user_geometry(RTCDevice device, size_t primitives) {
 
 uint32_t mask_of(const Intersector::Member& member) {
   return static_cast<uint32_t>(member.is_boundary ? RayMask::boundary : RayMask::opaque);
+}
+
+// Whether a ray that starts outside the box goes away from it. Exact: it misses then.
+bool goes_away_from(const Bounds3& box, const Ray& ray) {
+  for (int i = 0; i < 3; ++i)
+    if ((ray.o[i] > box.max[i] && ray.d[i] >= 0) ||
+        (ray.o[i] < box.min[i] && ray.d[i] <= 0))
+      return true;
+  return false;
+}
+
+Bounds3 bounds_of(RTCScene scene) {
+  RTCBounds b;
+  rtcGetSceneBounds(scene, &b);
+  const Bounds3 result{.min = {b.lower_x, b.lower_y, b.lower_z},
+                       .max = {b.upper_x, b.upper_y, b.upper_z}};
+  return result.is_empty() ? Bounds3{} : result;
 }
 
 // Embree takes coordinates up to 1.8e18.
@@ -181,6 +206,7 @@ class Intersector::Impl {
   Impl(std::span<const Group> groups, std::span<const Instance> instances)
       : device_(rtcNewDevice(nullptr)) {
     throw_on_error(device_.get());
+    boundaries_ = new_scene();
     if (!rtcGetDeviceProperty(device_.get(), RTC_DEVICE_PROPERTY_RAY_MASK_SUPPORTED) ||
         !rtcGetDeviceProperty(device_.get(), RTC_DEVICE_PROPERTY_FILTER_FUNCTION_SUPPORTED))
       throw std::runtime_error("this build of Embree lacks ray masks or filter functions");
@@ -192,15 +218,20 @@ class Intersector::Impl {
     for (size_t i = 1; i < scenes_.size(); ++i) rtcCommitScene(scenes_[i].get());
     add_instances(groups, instances);
     rtcCommitScene(scenes_[0].get());
+    rtcCommitScene(boundaries_.get());
     throw_on_error(device_.get());
+    boundary_bounds_ = bounds_of(boundaries_.get());
   }
 
-  std::optional<SceneHit> intersect(const Ray& ray, float t_max, RayMask mask) const {
+  std::optional<RayHit> find(const Ray& ray, float t_max, RayMask mask) const {
     if (!can_hit(ray, t_max)) return std::nullopt;
+    const bool boundaries_only = mask == RayMask::boundary;
+    if (boundaries_only && goes_away_from(boundary_bounds_, ray)) return std::nullopt;
+    const RTCScene scene = boundaries_only ? boundaries_.get() : scenes_[0].get();
     RayContext context = new_context(ray, t_max);
     RTCRayHit query{.ray = to_embree(ray, t_max, mask), .hit = no_hit()};
     for (;;) {
-      rtcIntersect1(scenes_[0].get(), &context.embree, &query);
+      rtcIntersect1(scene, &context.embree, &query);
       if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
       if (auto hit = finish_hit(context, query)) return hit;
       // It was a triangle at an end of the ray: go on behind it.
@@ -219,20 +250,25 @@ class Intersector::Impl {
     return query.tfar < 0;
   }
 
-  Bounds3 bounds() const {
-    RTCBounds b;
-    rtcGetSceneBounds(scenes_[0].get(), &b);
-    const Bounds3 result{.min = {b.lower_x, b.lower_y, b.lower_z},
-                         .max = {b.upper_x, b.upper_y, b.upper_z}};
-    return result.is_empty() ? Bounds3{} : result;
+  SceneHit resolve(const Ray& ray, const RayHit& hit) const {
+    const InstanceMaps* instance = instances_.of(hit.instance);
+    return reconstruct(targets_[hit.group][hit.shape], hit, precise_ray(ray, instance),
+                       instance);
   }
 
+  Bounds3 bounds() const { return bounds_of(scenes_[0].get()); }
+
  private:
+  Handle<RTCScene> new_scene() const {
+    Handle<RTCScene> scene(rtcNewScene(device_.get()));
+    rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
+    return scene;
+  }
+
   // Fills `targets`, whose addresses Embree keeps.
   Handle<RTCScene> new_scene(const Group& group, std::vector<TargetShape>& targets,
                              bool is_instanced) {
-    Handle<RTCScene> scene(rtcNewScene(device_.get()));
-    rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
+    Handle<RTCScene> scene = new_scene();
     targets.reserve(group.size());
     for (size_t i = 0; i < group.size(); ++i) {
       TargetShape& target = targets.emplace_back(*group[i].shape);
@@ -245,6 +281,8 @@ class Intersector::Impl {
       rtcSetGeometryMask(handle.get(), mask_of(group[i]));
       rtcCommitGeometry(handle.get());
       rtcAttachGeometryByID(scene.get(), handle.get(), static_cast<unsigned>(i));
+      if (group[i].is_boundary && !is_instanced)
+        rtcAttachGeometryByID(boundaries_.get(), handle.get(), static_cast<unsigned>(i));
     }
     throw_on_error(device_.get());
     return scene;
@@ -266,8 +304,10 @@ class Intersector::Impl {
                               world_from_group.matrix().data());
       rtcSetGeometryMask(handle.get(), mask);
       rtcCommitGeometry(handle.get());
-      rtcAttachGeometryByID(scenes_[0].get(), handle.get(),
-                            instances_.first + static_cast<uint32_t>(i));
+      const uint32_t id = instances_.first + static_cast<uint32_t>(i);
+      rtcAttachGeometryByID(scenes_[0].get(), handle.get(), id);
+      if (mask & static_cast<uint32_t>(RayMask::boundary))
+        rtcAttachGeometryByID(boundaries_.get(), handle.get(), id);
     }
   }
 
@@ -280,30 +320,35 @@ class Intersector::Impl {
     return context;
   }
 
-  const TargetShape& target_of_hit(const InstanceMaps* instance, const RTCHit& hit) const {
-    return targets_[instance ? instance->group : 0][hit.geomID];
-  }
-
   // Empty if the hit is of a triangle that the ray starts from or ends on.
-  std::optional<SceneHit> finish_hit(const RayContext& context,
-                                     const RTCRayHit& query) const {
-    const RTCHit& hit = query.hit;
-    const InstanceMaps* instance = context.instance(hit.instID[0]);
-    const TargetShape& target = target_of_hit(instance, hit);
-    const PreciseRay ray = context.ray_in(instance);
-    if (target.mesh() && !target.is_between_ends(hit.primID, ray, context.t_max))
+  std::optional<RayHit> finish_hit(const RayContext& context,
+                                   const RTCRayHit& query) const {
+    const auto& [ray, hit] = query;
+    const InstanceMaps* instance = instances_.of(hit.instID[0]);
+    RayHit result{.t = ray.tfar,
+                  .group = instance ? instance->group : 0,
+                  .shape = hit.geomID,
+                  .primitive = hit.primID,
+                  .instance = hit.instID[0],
+                  .uv = {hit.u, hit.v}};
+    const TargetShape& target = targets_[result.group][hit.geomID];
+    if (!target.mesh()) return result;
+    const PreciseRay precise = precise_ray(*context.world_ray, instance);
+    if ((instance || may_be_at_end(target, ray, hit, context.t_max)) &&
+        !target.is_between_ends(hit.primID, precise, context.t_max))
       return std::nullopt;
-    return reconstruct(target,
-                       {.t = query.ray.tfar,
-                        .shape = hit.geomID,
-                        .primitive = hit.primID,
-                        .uv = {hit.u, hit.v}},
-                       ray, instance);
+    result.t =
+        static_cast<float>(plane_distance(target.mesh()->triangle(hit.primID), precise));
+    return result;
   }
 
   Handle<RTCDevice> device_;
   std::vector<std::vector<TargetShape>> targets_;  // by group and shape
   std::vector<Handle<RTCScene>> scenes_;           // by group
+  // The boundaries of the world once more: rays for transmittance need not wade through the
+  // rest, and see at once when there are no more.
+  Handle<RTCScene> boundaries_;
+  Bounds3 boundary_bounds_;
   InstanceTable instances_;
 };
 
@@ -318,7 +363,16 @@ Intersector::~Intersector() = default;
 
 std::optional<SceneHit> Intersector::intersect(const Ray& ray, float t_max,
                                                RayMask mask) const {
-  return impl_->intersect(ray, t_max, mask);
+  const std::optional<RayHit> hit = find(ray, t_max, mask);
+  return hit ? std::optional<SceneHit>(resolve(ray, *hit)) : std::nullopt;
+}
+
+std::optional<RayHit> Intersector::find(const Ray& ray, float t_max, RayMask mask) const {
+  return impl_->find(ray, t_max, mask);
+}
+
+SceneHit Intersector::resolve(const Ray& ray, const RayHit& hit) const {
+  return impl_->resolve(ray, hit);
 }
 
 bool Intersector::is_occluded(const Ray& ray, float t_max, RayMask mask) const {

@@ -48,6 +48,10 @@ class Intersector {
   /// no distance needs to be skipped. Rays from farther than 1e18, or not finite, hit
   /// nothing.
   std::optional<SceneHit> intersect(const Ray& ray, float t_max, RayMask mask) const;
+  /// The same in two steps: the point of a hit costs as much as a ray through a small
+  /// scene, and many hits are not asked for it. `ray` is the one that found the hit.
+  std::optional<RayHit> find(const Ray& ray, float t_max, RayMask mask) const;
+  SceneHit resolve(const Ray& ray, const RayHit& hit) const;
   /// Whether intersect() would find anything.
   bool is_occluded(const Ray& ray, float t_max, RayMask mask) const;
 

@@ -40,8 +40,8 @@ bool SphereIntersector::is_clipped_away(Vec3d n) const {
          (phi_max_ < full_turn && azimuth(n.x, n.y) > phi_max_);
 }
 
-std::optional<PreciseHit> SphereIntersector::intersect(const PreciseRay& ray,
-                                                       double t_max) const {
+std::optional<SphereIntersector::Found> SphereIntersector::find(const PreciseRay& ray,
+                                                                double t_max) const {
   const Vec3d o = sphere_from_world_.point(ray.o), d = sphere_from_world_.vector(ray.d);
   // From the point of the line that is closest to the center both ways to the surface: this
   // loses no digits for a far origin, as the textbook discriminant does.
@@ -56,10 +56,24 @@ std::optional<PreciseHit> SphereIntersector::intersect(const PreciseRay& ray,
     const Vec3d n = normalize_or_z(o + d * t);
     if (starts_on_surface(t * dot(n, d), length(o) + radius_) || is_clipped_away(n))
       continue;
-    return PreciseHit{
-        .t = t, .uv = sphere_.parameters(n), .p = world_from_sphere_.point(n * radius_)};
+    return Found{t, n};
   }
   return std::nullopt;
+}
+
+std::optional<PreciseHit> SphereIntersector::intersect(const PreciseRay& ray,
+                                                       double t_max) const {
+  const std::optional<Found> found = find(ray, t_max);
+  if (!found) return std::nullopt;
+  return PreciseHit{.t = found->t,
+                    .uv = sphere_.parameters(found->n),
+                    .p = world_from_sphere_.point(found->n * radius_)};
+}
+
+std::optional<double> SphereIntersector::distance(const PreciseRay& ray,
+                                                  double t_max) const {
+  const std::optional<Found> found = find(ray, t_max);
+  return found ? std::optional<double>(found->t) : std::nullopt;
 }
 
 DiskIntersector::DiskIntersector(const Disk& disk)
@@ -70,20 +84,33 @@ DiskIntersector::DiskIntersector(const Disk& disk)
       inner_radius_(static_cast<double>(disk.inner_radius)),
       phi_max_(azimuth_range(disk.phi_max)) {}
 
-std::optional<PreciseHit> DiskIntersector::intersect(const PreciseRay& ray,
-                                                     double t_max) const {
+std::optional<DiskIntersector::Found> DiskIntersector::find(const PreciseRay& ray,
+                                                            double t_max) const {
   const Vec3d o = disk_from_world_.point(ray.o), d = disk_from_world_.vector(ray.d);
   const double t = (height_ - o.z) / d.z;
   if (!is_within(t, t_max) || starts_on_surface(height_ - o.z, length(o) + radius_))
     return std::nullopt;
   const double x = o.x + d.x * t, y = o.y + d.y * t;
-  const double r = std::hypot(x, y), phi = azimuth(x, y);
+  const double r = std::hypot(x, y);
   if (!(r <= radius_ && r >= inner_radius_ && radius_ > inner_radius_)) return std::nullopt;
-  if (phi > phi_max_) return std::nullopt;
+  if (phi_max_ < full_turn && azimuth(x, y) > phi_max_) return std::nullopt;
+  return Found{t, x, y, r};
+}
+
+std::optional<PreciseHit> DiskIntersector::intersect(const PreciseRay& ray,
+                                                     double t_max) const {
+  const std::optional<Found> found = find(ray, t_max);
+  if (!found) return std::nullopt;
+  const auto [t, x, y, r] = *found;
   return PreciseHit{.t = t,
-                    .uv = {static_cast<float>(phi / phi_max_),
+                    .uv = {static_cast<float>(azimuth(x, y) / phi_max_),
                            static_cast<float>((radius_ - r) / (radius_ - inner_radius_))},
                     .p = world_from_disk_.point({x, y, height_})};
+}
+
+std::optional<double> DiskIntersector::distance(const PreciseRay& ray, double t_max) const {
+  const std::optional<Found> found = find(ray, t_max);
+  return found ? std::optional<double>(found->t) : std::nullopt;
 }
 
 bool starts_in_front(const PreciseTriangle& triangle, const PreciseRay& ray) {

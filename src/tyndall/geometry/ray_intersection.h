@@ -42,8 +42,15 @@ class SphereIntersector {
  public:
   explicit SphereIntersector(const Sphere& sphere);
   std::optional<PreciseHit> intersect(const PreciseRay& ray, double t_max) const;
+  /// The distance of intersect() alone, for less.
+  std::optional<double> distance(const PreciseRay& ray, double t_max) const;
 
  private:
+  struct Found {
+    double t;
+    Vec3d n;  // on the unit sphere
+  };
+  std::optional<Found> find(const PreciseRay& ray, double t_max) const;
   bool is_clipped_away(Vec3d n) const;
 
   Sphere sphere_;
@@ -58,8 +65,15 @@ class DiskIntersector {
  public:
   explicit DiskIntersector(const Disk& disk);
   std::optional<PreciseHit> intersect(const PreciseRay& ray, double t_max) const;
+  /// The distance of intersect() alone, for less.
+  std::optional<double> distance(const PreciseRay& ray, double t_max) const;
 
  private:
+  struct Found {
+    double t, x, y, r;  // in the space of the disk
+  };
+  std::optional<Found> find(const PreciseRay& ray, double t_max) const;
+
   Affine world_from_disk_, disk_from_world_;
   double height_, radius_, inner_radius_;
   double phi_max_;

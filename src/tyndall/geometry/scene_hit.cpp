@@ -24,14 +24,15 @@ void move_to_world(const InstanceMaps& instance, Vec3d p, SceneHit& hit) {
   hit.point.ns = dot(ns, hit.point.ng) < 0 ? -ns : ns;
 }
 
-SceneHit reconstruct_curved(const TargetShape& target, const RoughHit& hit,
+SceneHit reconstruct_curved(const TargetShape& target, const RayHit& hit,
                             const PreciseRay& ray, const InstanceMaps* instance) {
+  // The search told the distance only; the same arithmetic finds the same point again.
+  const std::optional<PreciseHit> found = target.intersect(hit.primitive, ray, infinity);
   SceneHit result{.t = hit.t,
                   .group = 0,
                   .shape = hit.shape,
-                  .point = surface_point(target.shape(), hit.primitive, hit.uv)};
-  // The search has room for floats only; the same arithmetic finds the same point again.
-  const std::optional<PreciseHit> found = target.intersect(hit.primitive, ray, infinity);
+                  .point = surface_point(target.shape(), hit.primitive,
+                                         found ? found->uv : Vec2{})};
   const Vec3d p = found ? found->p : Vec3d(result.point.p);
   result.point.p = to_float(p);
   if (instance) move_to_world(*instance, p, result);
@@ -40,12 +41,12 @@ SceneHit reconstruct_curved(const TargetShape& target, const RoughHit& hit,
 
 }  // namespace
 
-SceneHit reconstruct(const TargetShape& target, const RoughHit& hit, const PreciseRay& ray,
+SceneHit reconstruct(const TargetShape& target, const RayHit& hit, const PreciseRay& ray,
                      const InstanceMaps* instance) {
   if (!target.mesh()) return reconstruct_curved(target, hit, ray, instance);
   const PreciseTriangle triangle = target.mesh()->triangle(hit.primitive);
   const Vec2 barycentric = clamp_to_triangle(hit.uv);
-  SceneHit result{.t = static_cast<float>(plane_distance(triangle, ray)),
+  SceneHit result{.t = hit.t,
                   .group = 0,
                   .shape = hit.shape,
                   .point = target.mesh()->point(hit.primitive, barycentric, triangle)};

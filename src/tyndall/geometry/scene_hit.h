@@ -28,16 +28,18 @@ struct InstanceMaps {
   }
 };
 
-/// What a search in single precision tells of a hit.
-struct RoughHit {
-  float t;
-  uint32_t shape, primitive;
-  Vec2 uv;  ///< the shape's own parameters
+/// What a ray meets and how far away: enough to decide whether to go there.
+struct RayHit {
+  float t;         ///< distance along the ray [scene units]
+  uint32_t group;  ///< group and shape index as given to the intersector
+  uint32_t shape;
+  uint32_t primitive, instance;  ///< as the intersector counts them
+  Vec2 uv;                       ///< barycentric, of triangles
 };
 
 /// The hit to double precision, rounded once. `ray` is in the space of the target, whose
 /// instance is null in the world.
-SceneHit reconstruct(const TargetShape& target, const RoughHit& hit, const PreciseRay& ray,
+SceneHit reconstruct(const TargetShape& target, const RayHit& hit, const PreciseRay& ray,
                      const InstanceMaps* instance);
 
 }  // namespace tyndall

@@ -52,8 +52,7 @@ struct Cone {
   double radius;         // of the sphere, in world space
 };
 
-std::optional<Cone> cone_from_outside(const Sphere& s, Vec3 from) {
-  const Affine world(s.world_from_sphere);
+std::optional<Cone> cone_from_outside(const Sphere& s, const Affine& world, Vec3 from) {
   if (!s.is_full() || !keeps_spheres(world)) return std::nullopt;
   const Vec3d to_center = world.column(3) - Vec3d(from);
   const double d = length(to_center);
@@ -193,18 +192,25 @@ float Sphere::pdf_area(const SurfacePoint& on) const {
 }
 
 std::optional<ShapeDirectionSample> Sphere::sample_direction(Vec3 from, Vec2 u) const {
-  const std::optional<Cone> cone = cone_from_outside(*this, from);
+  const Affine world(world_from_sphere);
+  const std::optional<Cone> cone = cone_from_outside(*this, world, from);
   if (!cone) return sample_direction_by_area(*this, from, u);
   const float pdf = cone_pdf(*cone);
   if (!(pdf > 0)) return std::nullopt;
   const Vec3d normal = near_side_normal(*cone, u);
+  const Vec3d n = normalize_or_z(world.transposed(normal));
+  const Vec3 ng = to_float(flip_normals ? -normal : normal);
   return ShapeDirectionSample{
-      .point = point_at(normalize_or_z(Affine(world_from_sphere).transposed(normal))),
+      .point = {.p = to_float(world.point(n * static_cast<double>(radius))),
+                .ng = ng,
+                .ns = ng,
+                .uv = {}},
       .pdf = pdf};
 }
 
 float Sphere::direction_pdf(Vec3 from, const SurfacePoint& on) const {
-  const std::optional<Cone> cone = cone_from_outside(*this, from);
+  const std::optional<Cone> cone =
+      cone_from_outside(*this, Affine(world_from_sphere), from);
   if (!cone) return direction_pdf_by_area(*this, from, on);
   // The far side is never sampled. The tolerance spares points of the rim from being taken
   // for it, which are on either side of it by rounding.

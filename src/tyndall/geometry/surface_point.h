@@ -22,7 +22,7 @@ struct ShapeSample {
 
 /// A point drawn on a shape as seen from elsewhere.
 struct ShapeDirectionSample {
-  SurfacePoint point;
+  SurfacePoint point;  ///< without `uv`
   float pdf;  ///< density of the direction towards it w.r.t. solid angle [1/sr]; finite
 };
 

@@ -55,4 +55,14 @@ std::optional<PreciseHit> TargetShape::intersect(uint32_t primitive, const Preci
   return intersect_patch(std::get<BilinearMesh>(*shape_).patch(primitive), ray, t_max);
 }
 
+std::optional<double> TargetShape::distance(uint32_t primitive, const PreciseRay& ray,
+                                            double t_max) const {
+  if (const auto* sphere = std::get_if<SphereIntersector>(&quadric_))
+    return sphere->distance(ray, t_max);
+  if (const auto* disk = std::get_if<DiskIntersector>(&quadric_))
+    return disk->distance(ray, t_max);
+  const std::optional<PreciseHit> hit = intersect(primitive, ray, t_max);
+  return hit ? std::optional<double>(hit->t) : std::nullopt;
+}
+
 }  // namespace tyndall

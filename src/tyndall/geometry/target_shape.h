@@ -30,6 +30,9 @@ class TargetShape {
   /// The closest hit at a distance in (0, t_max). Precondition: mesh() is null.
   std::optional<PreciseHit> intersect(uint32_t primitive, const PreciseRay& ray,
                                       double t_max) const;
+  /// The distance of intersect() alone, for less.
+  std::optional<double> distance(uint32_t primitive, const PreciseRay& ray,
+                                 double t_max) const;
 
   /// Whether a triangle of the mesh is in front of the ray and not behind its end, exactly.
   bool is_between_ends(uint32_t triangle, const PreciseRay& ray, float t_max) const {

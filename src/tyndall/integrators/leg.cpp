@@ -8,30 +8,29 @@ namespace {
 // up.
 constexpr size_t max_spans = 4096;
 
-bool is_boundary(const SurfaceHit& hit) {
-  return std::holds_alternative<InterfaceBsdf>(hit.surface->material);
+bool is_boundary(const FoundSurface& found) {
+  return std::holds_alternative<InterfaceBsdf>(found.surface->material);
 }
 
 }  // namespace
 
 Leg::Leg(const Scene& scene, const Ray& ray, const Medium* medium)
-    : scene_(&scene), ray_(ray), origin_(ray.o), medium_(medium) {}
+    : scene_(&scene), ray_(ray), last_(ray), medium_(medium) {}
 
 void Leg::trace_span() {
-  const std::optional<SurfaceHit> hit = scene_->intersect({origin_, ray_.d}, infinity);
-  const float t_end = hit ? t_ + hit->t : far_distance;
+  if (found_) cross_boundary();
+  found_ = scene_->find(last_, infinity);
+  const float t_end = found_ ? t_ + found_->hit.t : far_distance;
   spans_.push_back({t_, t_end, medium_});
   t_ = t_end;
-  if (!hit || spans_.size() >= max_spans) {
-    is_complete_ = true;
-  } else if (is_boundary(*hit)) {
-    medium_ = scene_->medium_across(*hit, ray_.d, medium_);
-    origin_ = offset_origin(hit->point.p, hit->point.ng, ray_.d);
-  } else {
-    end_ = hit;
-    end_->t = t_end;
-    is_complete_ = true;
-  }
+  if (spans_.size() >= max_spans && found_ && is_boundary(*found_)) found_.reset();
+  is_complete_ = !found_ || !is_boundary(*found_);
+}
+
+void Leg::cross_boundary() {
+  const SurfaceHit hit = scene_->resolve(last_, *found_);
+  medium_ = scene_->medium_across(hit, ray_.d, medium_);
+  last_.o = offset_origin(hit.point.p, hit.point.ng, ray_.d);
 }
 
 void Leg::trace_all() {
@@ -45,6 +44,10 @@ const Leg::Span* Leg::span(size_t i) {
 
 const SurfaceHit* Leg::end() {
   trace_all();
+  if (found_ && !end_) {
+    end_ = scene_->resolve(last_, *found_);
+    end_->t = t_;
+  }
   return end_ ? &*end_ : nullptr;
 }
 

@@ -36,15 +36,17 @@ class Leg {
 
  private:
   void trace_span();
+  void cross_boundary();
   void trace_all();
 
   const Scene* scene_;
   Ray ray_;
   boost::container::small_vector<Span, 4> spans_;
-  std::optional<SurfaceHit> end_;
+  std::optional<SurfaceHit> end_;  // once somebody asks
   bool is_complete_ = false;
-  // Where tracing goes on:
-  Vec3 origin_;
+  // The last ray, what it found, and the medium that it went through:
+  Ray last_;
+  std::optional<FoundSurface> found_;
   float t_ = 0;
   const Medium* medium_;
 };

@@ -62,17 +62,24 @@ class Scene::Impl {
     measure_power();
   }
 
-  std::optional<SurfaceHit> resolve(const std::optional<SceneHit>& hit) const {
-    if (!hit) return std::nullopt;
-    const bool in_world = hit->group == 0;
+  const Surface& surface(const RayHit& hit) const {
     const std::vector<Surface>& surfaces =
-        in_world ? description.surfaces : description.objects[hit->group - 1];
-    const size_t light = in_world ? light_of_surface[hit->shape] : no_light;
-    return SurfaceHit{.t = hit->t,
-                      .point = hit->point,
-                      .surface = &surfaces[hit->shape],
-                      .light = light == no_light ? nullptr : &lights[light],
-                      .light_index = light};
+        hit.group == 0 ? description.surfaces : description.objects[hit.group - 1];
+    return surfaces[hit.shape];
+  }
+
+  SurfaceHit resolve(const Ray& ray, const RayHit& hit) const {
+    const size_t light = hit.group == 0 ? light_of_surface[hit.shape] : no_light;
+    return {.t = hit.t,
+            .point = intersector.resolve(ray, hit).point,
+            .surface = &surface(hit),
+            .light = light == no_light ? nullptr : &lights[light],
+            .light_index = light};
+  }
+
+  std::optional<SurfaceHit> intersect(const Ray& ray, float t_max, RayMask mask) const {
+    const std::optional<RayHit> hit = intersector.find(ray, t_max, mask);
+    return hit ? std::optional<SurfaceHit>(resolve(ray, *hit)) : std::nullopt;
   }
 
   const Medium* medium(int index) const {
@@ -138,16 +145,26 @@ const std::vector<std::string>& Scene::remarks() const { return impl_->remarks; 
 const SceneDescription& Scene::description() const { return impl_->description; }
 
 std::optional<SurfaceHit> Scene::intersect(const Ray& ray, float t_max) const {
-  return impl_->resolve(impl_->intersector.intersect(ray, t_max, RayMask::all));
+  return impl_->intersect(ray, t_max, RayMask::all);
+}
+
+std::optional<FoundSurface> Scene::find(const Ray& ray, float t_max) const {
+  const std::optional<RayHit> hit = impl_->intersector.find(ray, t_max, RayMask::all);
+  if (!hit) return std::nullopt;
+  return FoundSurface{*hit, &impl_->surface(*hit)};
+}
+
+SurfaceHit Scene::resolve(const Ray& ray, const FoundSurface& found) const {
+  return impl_->resolve(ray, found.hit);
 }
 
 std::optional<SurfaceHit> Scene::intersect_opaque(const Ray& ray, float t_max) const {
-  return impl_->resolve(impl_->intersector.intersect(ray, t_max, RayMask::opaque));
+  return impl_->intersect(ray, t_max, RayMask::opaque);
 }
 
 std::optional<SurfaceHit> Scene::intersect_boundary(const Ray& ray, float t_max) const {
   if (!impl_->has_boundaries) return std::nullopt;
-  return impl_->resolve(impl_->intersector.intersect(ray, t_max, RayMask::boundary));
+  return impl_->intersect(ray, t_max, RayMask::boundary);
 }
 
 bool Scene::is_occluded(const Ray& ray, float t_max) const {

@@ -21,6 +21,12 @@ struct SurfaceHit {
   size_t light_index;      ///< of `light` in Scene::lights()
 };
 
+/// A surface that a ray meets, before its point is computed.
+struct FoundSurface {
+  RayHit hit;
+  const Surface* surface;  ///< material, media, emission
+};
+
 /// An immutable scene, ready to trace. Safe to use from all threads.
 class Scene {
  public:
@@ -39,6 +45,9 @@ class Scene {
 
   /// The first surface in (0, t_max), opaque or boundary.
   std::optional<SurfaceHit> intersect(const Ray& ray, float t_max) const;
+  /// The same in two steps, for callers that may not go there. `ray` is the one that found.
+  std::optional<FoundSurface> find(const Ray& ray, float t_max) const;
+  SurfaceHit resolve(const Ray& ray, const FoundSurface& found) const;
   /// The first surface in (0, t_max) that is not only a boundary between media.
   std::optional<SurfaceHit> intersect_opaque(const Ray& ray, float t_max) const;
   /// The first boundary between media in (0, t_max).
