@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "tyndall/geometry/azimuth.h"
 #include "tyndall/geometry/sample_by_area.h"
@@ -113,7 +114,8 @@ Vec2 Sphere::parameters(Vec3d n) const {
   const Range z = z_range(*this);
   const auto r = static_cast<double>(radius);
   const double phi = azimuth(n.x, n.y);
-  const double theta_min = std::acos(z.min / r), theta_max = std::acos(z.max / r);
+  const double theta_min = z.min > -r ? std::acos(z.min / r) : std::numbers::pi;
+  const double theta_max = z.max < r ? std::acos(z.max / r) : 0;
   const double theta = std::acos(std::clamp(n.z, -1.0, 1.0));
   return {static_cast<float>(phi / azimuth_range(phi_max)),
           static_cast<float>((theta - theta_min) / (theta_max - theta_min))};
@@ -179,8 +181,10 @@ ShapeSample Sphere::sample(Vec2 u) const {
   const Range z = z_range(*this);
   const double height = std::lerp(z.min, z.max, static_cast<double>(u.x));
   const double phi = static_cast<double>(u.y) * azimuth_range(phi_max);
-  const SurfacePoint on = point_at(direction(height / static_cast<double>(radius), phi));
-  return {.point = on, .pdf_area = pdf_area(on)};
+  const Vec3d n = direction(height / static_cast<double>(radius), phi);
+  const double stretch = length(Affine(world_from_sphere).normal(n));
+  return {.point = point_at(n),
+          .pdf_area = static_cast<float>(1 / (area_in_sphere_space(*this) * stretch))};
 }
 
 float Sphere::pdf_area(const SurfacePoint& on) const {

@@ -39,11 +39,14 @@ const ScatteringTables& ConnectionContext::tables(const Medium& medium) const {
 }
 
 std::optional<Vec3> Pivots::operator()(size_t light) const {
+  if (last_light_ == light) return last_;
+  last_light_ = light;
+  last_.reset();
   RandomStream stream(hash(key_, light));
   const std::optional<LightPoint> point =
       scene_->lights()[light].sample_point(stream.next_2d());
-  if (!point) return std::nullopt;
-  return point->on.p;
+  if (point) last_ = point->on.p;
+  return last_;
 }
 
 ConnectionLeg::ConnectionLeg(const ConnectionContext& context, const Pivots& pivots,
@@ -87,42 +90,62 @@ ConnectionLeg::PerLight& ConnectionLeg::aim_at(size_t light) {
   if (cache_ && cache_->light == light) return *cache_;
   cache_.emplace();
   cache_->light = light;
+  cache_->base = useful_base(light);
+  return *cache_;
+}
+
+std::optional<EquiangularSampling> ConnectionLeg::useful_base(size_t light) const {
   const std::optional<Vec3> pivot = (*pivots_)(light);
-  if (!pivot) return *cache_;
+  if (!pivot) return std::nullopt;
   const EquiangularSampling base(ray_, *pivot, proxy_.t_min(), t_max_);
-  if (!(base.integral() > 0)) return *cache_;
+  if (!(base.integral() > 0)) return std::nullopt;
   const PivotSegment& segment = base.segment();
   const float nearest = segment.s_near() < 0 ? segment.h() : segment.r_near();
   const float farthest = segment.r(segment.s(segment.length()));
-  if (!(farthest > context_->settings().min_distance_ratio * nearest)) return *cache_;
+  if (!(farthest > context_->settings().min_distance_ratio * nearest)) return std::nullopt;
+  return base;
+}
+
+ConnectionLeg::Single ConnectionLeg::bin_single(size_t light,
+                                                const EquiangularSampling& base) const {
   const DistanceTaps<32> taps = base.taps<32>();
   DistanceWeights<32> factors = weights(taps, true);
   if (const LightVisibility* visibility = context_->visibility()) {
-    const float angle = base.integral() * segment.h();
+    const float angle = base.integral() * base.segment().h();
     visibility->multiply(light, ray_, taps.t, angle / 32, factors.values);
   }
-  cache_->single.emplace(base, factors, floor_share);
-  return *cache_;
+  return Single(base, factors, floor_share);
 }
 
 const ConnectionLeg::Single* ConnectionLeg::single(size_t light) {
   if (is_empty() || !context_->settings().single) return nullptr;
   PerLight& cache = aim_at(light);
+  if (cache.base && !cache.single) cache.single = bin_single(light, *cache.base);
   return cache.single ? &*cache.single : nullptr;
 }
 
-const ConnectionLeg::Double* ConnectionLeg::dual(size_t light) {
+bool ConnectionLeg::reaches_single(size_t light, float t) {
+  if (is_empty() || !context_->settings().single) return false;
+  const PerLight& cache = aim_at(light);
+  return cache.base && cache.base->pdf_t(t) > 0;
+}
+
+const DoubleScatteringDistance* ConnectionLeg::dual_base(size_t light) {
   if (is_empty() || !context_->settings().dual) return nullptr;
   PerLight& cache = aim_at(light);
-  if (!cache.single) return nullptr;
-  if (!cache.has_dual) {
-    cache.has_dual = true;
-    const DoubleScatteringDistance base(context_->tables(*proxy_.first_medium()),
-                                        cache.single->base().segment());
-    if (base.integral() > 0)
-      cache.dual.emplace(base, weights(base.taps<8>(), false), floor_share);
-  }
-  return cache.dual ? &*cache.dual : nullptr;
+  if (!cache.base) return nullptr;
+  if (!cache.dual_base)
+    cache.dual_base.emplace(context_->tables(*proxy_.first_medium()),
+                            cache.base->segment());
+  return cache.dual_base->integral() > 0 ? &*cache.dual_base : nullptr;
+}
+
+const ConnectionLeg::Double* ConnectionLeg::dual(size_t light) {
+  const DoubleScatteringDistance* base = dual_base(light);
+  if (!base) return nullptr;
+  if (!cache_->dual)
+    cache_->dual.emplace(*base, weights(base->taps<8>(), false), floor_share);
+  return &*cache_->dual;
 }
 
 std::optional<ConnectionLeg::Lit> ConnectionLeg::lit(Vec3 p, Vec3 ng, Vec3 to_light) const {
@@ -138,9 +161,9 @@ std::optional<ConnectionLeg::Lit> ConnectionLeg::lit(Vec3 p, Vec3 ng, Vec3 to_li
   return Lit(base, factors, floor_share);
 }
 
-const ConnectionLeg::Double* ConnectionLeg::dual_from(const LegStart& x, size_t light) {
-  const Double* technique = x.is_in_medium ? dual(light) : nullptr;
-  return technique && technique->pdf_t(x.t) > 0 ? technique : nullptr;
+bool ConnectionLeg::reaches_dual(const LegStart& x, size_t light) {
+  const DoubleScatteringDistance* base = x.is_in_medium ? dual_base(light) : nullptr;
+  return base && base->pdf_t(x.t) > 0;
 }
 
 }  // namespace tyndall

@@ -64,12 +64,14 @@ class ConnectionContext {
 class Pivots {
  public:
   Pivots(const Scene& scene, uint64_t key) : scene_(&scene), key_(key) {}
-  /// Empty for lights at infinity.
+  /// Empty for lights at infinity. Not for several threads at once: it keeps the last.
   std::optional<Vec3> operator()(size_t light) const;
 
  private:
   const Scene* scene_;
   uint64_t key_;
+  mutable std::optional<size_t> last_light_;
+  mutable std::optional<Vec3> last_;
 };
 
 /// Where a leg begins, as far as the densities of other techniques need to know.
@@ -106,6 +108,8 @@ class ConnectionLeg {
   /// The last vertex before the light. Null where connections to it would be of no use.
   using Single = BinnedDistance<EquiangularSampling, 32>;
   const Single* single(size_t light);
+  /// Whether single(light) can put a vertex at t: its bins are not needed for that.
+  bool reaches_single(size_t light, float t);
   /// The vertex before the last.
   using Double = BinnedDistance<DoubleScatteringDistance, 8>;
   const Double* dual(size_t light);
@@ -114,17 +118,22 @@ class ConnectionLeg {
   /// scatters.
   using Lit = BinnedDistance<EquiangularSampling, 16>;
   std::optional<Lit> lit(Vec3 p, Vec3 ng, Vec3 to_light) const;
-  /// As dual(), but null also if no dual connection can have put its first vertex at `x`.
-  const Double* dual_from(const LegStart& x, size_t light);
+  /// Whether dual(light) can put its first vertex at `x`.
+  bool reaches_dual(const LegStart& x, size_t light);
 
  private:
+  // What is known of one light, each once somebody asks.
   struct PerLight {
     size_t light;
+    std::optional<EquiangularSampling> base;  // empty where connections are of no use
     std::optional<Single> single;
+    std::optional<DoubleScatteringDistance> dual_base;
     std::optional<Double> dual;
-    bool has_dual = false;
   };
   PerLight& aim_at(size_t light);
+  std::optional<EquiangularSampling> useful_base(size_t light) const;
+  Single bin_single(size_t light, const EquiangularSampling& base) const;
+  const DoubleScatteringDistance* dual_base(size_t light);
   const LightProbabilities& lights();
   template <int K>
   DistanceWeights<K> weights(const DistanceTaps<K>& taps, bool with_phase) const;

@@ -61,8 +61,8 @@ const Medium* Leg::end_medium() {
   return medium_;
 }
 
-Rgb transmittance(const Scene& scene, const Ray& ray, float t_max, const Medium* medium,
-                  RandomStream& rng) {
+Passage passage(const Scene& scene, const Ray& ray, float t_max, const Medium* medium,
+                RandomStream& rng) {
   Rgb product(1);
   Ray rest = ray;
   for (size_t i = 0; i < max_spans; ++i) {
@@ -74,7 +74,7 @@ Rgb transmittance(const Scene& scene, const Ray& ray, float t_max, const Medium*
     rest.o = offset_origin(hit->point.p, hit->point.ng, ray.d);
     t_max -= t;
   }
-  return product;
+  return {product, medium};
 }
 
 }  // namespace tyndall

@@ -60,9 +60,19 @@ inline Rgb estimate_span(const Medium& medium, const Ray& ray, float t_max,
                                 TransmittanceMethod::ratio_tracking);
 }
 
-/// Unbiased estimate of the transmittance along [0, t_max] of a ray that no surface blocks,
-/// through all boundaries in between.
-Rgb transmittance(const Scene& scene, const Ray& ray, float t_max, const Medium* medium,
-                  RandomStream& rng);
+/// Light that goes along [0, t_max] of a ray that no surface blocks, through all boundaries
+/// in between.
+struct Passage {
+  Rgb transmittance;         ///< an unbiased estimate
+  const Medium* end_medium;  ///< where it arrives, unless the estimate is black
+};
+Passage passage(const Scene& scene, const Ray& ray, float t_max, const Medium* medium,
+                RandomStream& rng);
+
+/// The transmittance of passage().
+inline Rgb transmittance(const Scene& scene, const Ray& ray, float t_max,
+                         const Medium* medium, RandomStream& rng) {
+  return passage(scene, ray, t_max, medium, rng).transmittance;
+}
 
 }  // namespace tyndall

@@ -17,7 +17,8 @@ namespace tyndall {
 struct PathRules {
   int max_depth;
   ScatteringOrders orders;
-  bool is_chromatic;  ///< some medium differs between the colour channels
+  bool is_chromatic;      ///< some medium differs between the colour channels
+  bool walks_find_light;  ///< something that glows is not a Dirac delta
   const ConnectionContext* connections;  ///< null: next event estimation only
   const ConnectionBudget* budget;        ///< null: each connection once
 };

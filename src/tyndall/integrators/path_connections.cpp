@@ -38,7 +38,7 @@ Path::Connection Path::connect_to(const Vertex& vertex, const SelectedLight& sel
       transmittance(scene_, shadow, std::min(t_max, far_distance), medium, tracking_);
   connection.light = f * T * sample->L;
   connection.end = {.light = selected.index,
-                    .probability = light_probability(vertex.p(), selected.index),
+                    .probability = selected.probability,
                     .pdf = sample->pdf,
                     .pdf_direction = sample->is_delta ? 0 : vertex.pdf(sample->wi),
                     .to_light = sample->wi,
@@ -72,8 +72,7 @@ void Path::connect_vertex() {
 // Whether next event estimation at the current vertex would have the weight zero.
 bool Path::is_left_to_connections(size_t light) {
   if (!rules_.connections || !vertex_->is_in_medium()) return false;
-  const ConnectionLeg::Single* single = leg_.single(light);
-  return single && single->pdf_t(t_vertex_) > 0;
+  return leg_.reaches_single(light, t_vertex_);
 }
 
 // Of next event estimation at the current vertex.
@@ -136,7 +135,7 @@ Rgb Path::leg_transmittance(Leg& leg, float t) {
 Rgb Path::connect_single(Leg& leg) {
   const std::optional<SelectedLight> selected = leg_.select_light(sampler_.next_1d());
   const float u = sampler_.next_1d();
-  if (!selected || leg_before_.dual_from(start_, selected->index)) return Rgb();
+  if (!selected || leg_before_.reaches_dual(start_, selected->index)) return Rgb();
   const ConnectionLeg::Single* single = leg_.single(selected->index);
   if (!single) return Rgb();
   const std::optional<DistanceSample> s = single->sample(u);

@@ -60,10 +60,10 @@ std::optional<Path::LitView> Path::look_at(const LitPoint& lit, const Vertex& x)
 
   // The lit point reflects: light reaches it through the medium that it leaves it by.
   const Medium* at_x = x.medium_towards(scene_, w);
-  const Medium* at_y = scene_.has_boundaries() ? Leg(scene_, ray, at_x).end_medium() : at_x;
+  const auto [T_xy, at_y] = passage(scene_, ray, distance, at_x, tracking_);
+  if (is_black(T_xy)) return std::nullopt;
   const Vertex y(lit.hit, -w, at_y);
-  const Rgb T = transmittance(scene_, ray, t_max, at_x, tracking_) *
-                transmittance_to_light(lit, at_y);
+  const Rgb T = T_xy * transmittance_to_light(lit, at_y);
   const float turn = cos_view / (sqr(distance) * cos_back);
   return LitView{.w = w,
                  .distance = distance,

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <variant>
 
 namespace tyndall {
 namespace {
@@ -10,6 +11,10 @@ namespace {
 constexpr uint32_t pilot_paths = 1024;
 // The budget of connections is final from this sample of each pixel on.
 constexpr uint32_t last_update = 64;
+
+bool can_be_hit(const Light& light) {
+  return light.is_environment() || std::holds_alternative<AreaLight>(light.variant());
+}
 
 }  // namespace
 
@@ -20,6 +25,9 @@ PathTracer::PathTracer(const Scene& scene, const RenderSettings& settings,
           .max_depth = settings.max_depth,
           .orders = settings.orders,
           .is_chromatic = !std::ranges::all_of(scene.description().media, &Medium::is_grey),
+          .walks_find_light =
+              std::ranges::any_of(scene.description().media, &Medium::is_emissive) ||
+              std::ranges::any_of(scene.lights(), can_be_hit),
           .connections = nullptr,
           .budget = nullptr} {
   if (!connections.single) return;

@@ -11,12 +11,13 @@ namespace {
 // with a single one.
 float dual_density(const ConnectionContext& context, ConnectionLeg& before,
                    const LegStart& x, const ConnectionLeg& leg, size_t light) {
-  const ConnectionLeg::Double* dual = before.dual_from(x, light);
-  const Medium* medium = dual ? before.proxy().medium_at(x.t) : nullptr;
+  const bool is_reached = before.reaches_dual(x, light);
+  const Medium* medium = is_reached ? before.proxy().medium_at(x.t) : nullptr;
   if (!medium) return 0;
   const DoubleScatteringDirection direction(context.tables(*medium), x.p, before.ray().d,
                                             *before.pivot(light));
-  return dual->pdf_t(x.t) * direction.pdf(leg.ray().d) * before.light_probability(light);
+  return before.dual(light)->pdf_t(x.t) * direction.pdf(leg.ray().d) *
+         before.light_probability(light);
 }
 
 // Density with which a connection to glow from the surface x chooses the light and the
@@ -51,9 +52,8 @@ TailDensities tail_densities(const ConnectionContext& context, ConnectionLeg& be
   const float collision = leg.proxy().collision_pdf_t(t);
   TailDensities densities{.direct = collision * end.probability * end.pdf,
                           .hit = collision * end.pdf_direction};
-  const ConnectionLeg::Single* single = leg.single(end.light);
-  const float last = single ? single->pdf_t(t) * end.pdf : 0;
-  if (!(last > 0)) return densities;
+  if (!leg.reaches_single(end.light, t)) return densities;
+  const float last = leg.single(end.light)->pdf_t(t) * end.pdf;
   densities.direct = 0;
   const float dual = dual_density(context, before, x, leg, end.light);
   if (!(dual > 0)) {

@@ -11,7 +11,8 @@ namespace tyndall {
 /// The light sample at the end of a path, as all techniques see it.
 struct LightEnd {
   size_t light;
-  float probability;  ///< of next event estimation to choose the light
+  float probability;  ///< of next event estimation to choose the light; of no account
+                      ///< where a connection makes the path
   float pdf;  ///< of its point, from the last vertex, w.r.t. solid angle; one if delta
   float pdf_direction;  ///< of the walk to hit that point [1/sr]; zero if delta
   Vec3 to_light;        ///< unit

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tyndall/math/fast_angle.h"
+
 namespace tyndall {
 namespace {
 
@@ -34,7 +36,8 @@ LightProbabilities LightChoice::build(float total_power,
   LightProbabilities result;
   if (!(total_power > 0)) return result;
   auto& cdf = result.cdf_;
-  cdf.resize(candidates_.size());
+  cdf.resize(candidates_.size(), 1);
+  if (cdf.size() == 1) return result;
   float sum = 0;
   const bool by_power = candidates_.size() > max_candidates;
   for (size_t i = 0; i < candidates_.size(); ++i)
@@ -67,8 +70,10 @@ LightProbabilities LightChoice::along(const Ray& ray, float t_min, float t_max) 
     const float t_foot = dot(c.center - ray.o, ray.d);
     const float h = std::max(std::sqrt(distance_squared(ray.at(t_foot), c.center)),
                              std::max(c.radius, 1e-6f * scene_radius_));
-    const float angle = std::atan((t_max - t_foot) / h) - std::atan((t_min - t_foot) / h);
-    return c.power * std::max(angle, 0.0f) / h;
+    // Of the directions to the two ends, seen from the light.
+    const float angle = fast_angle(sqr(h) + (t_min - t_foot) * (t_max - t_foot),
+                                   h * std::max(t_max - t_min, 0.0f));
+    return c.power * angle / h;
   });
 }
 
