@@ -27,11 +27,38 @@ inline float largest_alive(Rgb sigma, Rgb transmittance) {
                    transmittance.b > 0 ? sigma.b : 0});
 }
 
+/// ratio_tracking() in a grey medium: the same walk and the same estimate for less, as one
+/// channel stands for all.
+template <typename M>
+float grey_ratio_tracking(const M& medium, const Ray& ray, float t_max, RandomStream& rng) {
+  auto segments = medium.segments(ray, t_max);
+  MediumSegment s;
+  float remaining = sample_optical_depth(rng), product = 1;
+  while (segments.next(s)) {
+    const float majorant = s.majorant.r;
+    float t = s.t_min;
+    while (true) {
+      const float depth = majorant * (s.t_max - t);
+      if (remaining >= depth) {
+        remaining -= depth;
+        break;
+      }
+      t = std::min(t + remaining / majorant, s.t_max);
+      product *= std::max(1 - segments.sigma_t(t).r / majorant, 0.0f);
+      product = play_roulette(Rgb(product), rng).r;
+      if (product == 0) return 0;
+      remaining = sample_optical_depth(rng);
+    }
+  }
+  return product;
+}
+
 /// Unbiased transmittance up to t_max, in [0, 1]: the product of the null probabilities at
 /// tentative collisions [NSJ14]. The largest majorant of a channel that still counts drives
 /// the walk.
 template <typename M>
 Rgb ratio_tracking(const M& medium, const Ray& ray, float t_max, RandomStream& rng) {
+  if (medium.is_grey()) return Rgb(grey_ratio_tracking(medium, ray, t_max, rng));
   auto segments = medium.segments(ray, t_max);
   MediumSegment s;
   float remaining = sample_optical_depth(rng);
