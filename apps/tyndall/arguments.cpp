@@ -92,8 +92,9 @@ struct MakeParser {
 void check_choice(const std::string& text, const std::vector<std::string>& choices) {
   if (choices.empty() || std::find(choices.begin(), choices.end(), text) != choices.end())
     return;
-  throw std::invalid_argument(
-      fmt::format("must be one of {}, got '{}'", fmt::join(choices, ", "), text));
+  throw std::invalid_argument(fmt::format("must be {}{}, got '{}'",
+                                          choices.size() > 1 ? "one of " : "",
+                                          fmt::join(choices, ", "), text));
 }
 
 /// The name to blame: the option, or the environment variable that the text came from.

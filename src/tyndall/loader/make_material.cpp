@@ -19,6 +19,7 @@ struct MaterialContext {
   ParameterSet& parameters;
   const TextureTable& textures;
   const MaterialTable& named;
+  const std::string& type;
 
   Rgb reflectance(std::string_view name, float otherwise) const {
     return textures.spectrum(parameters, name, SpectrumUse::reflectance)
@@ -108,8 +109,9 @@ Material make_interface(const MaterialContext&) { return InterfaceBsdf{}; }
 
 void say_instead(const MaterialContext& in, std::string_view replacement) {
   in.parameters.reporter().unsupported(
-      in.parameters.where(), fmt::format("{}: not supported yet, {} takes its place",
-                                         in.parameters.owner(), replacement));
+      in.parameters.where(),
+      fmt::format("{}: materials of type \"{}\" are not supported yet; {} takes its place",
+                  in.parameters.owner(), in.type, replacement));
 }
 
 Material make_thin_dielectric(const MaterialContext& in) {
@@ -230,7 +232,7 @@ Material make_material(const std::string& type, ParameterSet& parameters,
   for (const MaterialType& known : material_types) {
     if (known.name == type) {
       ignore_bumps(parameters);
-      return known.make({parameters, textures, named});
+      return known.make({parameters, textures, named, type});
     }
     if (!known.name.empty()) names.push_back(known.name);
   }
