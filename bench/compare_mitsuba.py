@@ -6,7 +6,7 @@ Mitsuba's variant is scalar_rgb, its integrator volpath; depth, threads, samples
 the same. Both render in turn, several rounds with different seeds. Path samples per second are
 medians over the rounds; the means of 8x8 tiles are compared by Welch's test at 1 % over all tiles.
 
-Mitsuba is installed by pip into --venv if it is not there. Exit status: 0 agreement, 1 not, 77
+Mitsuba is installed by pip if it is not there (peers.py). Exit status: 0 agreement, 1 not, 77
 skipped because Mitsuba cannot be installed.
 """
 
@@ -20,34 +20,11 @@ import sys
 import tempfile
 import time
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+import peers
+
 TILES = 8
-
-
-def ensure_mitsuba(venv):
-    """Starts this script again in a virtual environment with Mitsuba, installing it if need be."""
-    try:
-        import mitsuba  # noqa: F401
-        return
-    except ImportError:
-        pass
-    python = venv / "bin" / "python"
-    if os.environ.get("TYNDALL_COMPARE_CHILD"):
-        skip("Mitsuba does not load after its installation")
-    try:
-        if not python.exists():
-            subprocess.run([sys.executable, "-m", "venv", venv], check=True, capture_output=True)
-        subprocess.run([python, "-m", "pip", "install", "-q", "mitsuba", "numpy"], check=True,
-                       capture_output=True, text=True, timeout=600)
-    except (subprocess.SubprocessError, OSError) as error:
-        skip(f"Mitsuba cannot be installed: {getattr(error, 'stderr', '') or error}")
-    os.environ["TYNDALL_COMPARE_CHILD"] = "1"
-    os.execv(python, [str(python), *sys.argv])
-
-
-def skip(reason):
-    print(f"skipped: {reason}")
-    sys.exit(77)
+# A square hole of 0.6 between the lamp and the middle of the box.
+GOBO = ((-1.5, -2.5, 0.4, 1.8), (1.0, -2.5, 2.9, 1.8), (0.4, -2.5, 1.0, -0.65), (0.4, -0.05, 1.0, 1.8))
 
 
 def density_grid(n):
@@ -64,11 +41,16 @@ def density_grid(n):
 
 
 class Comparison:
-    """One scene in both languages: a ball lamp over a floor, and a box of fog or smoke."""
+    """One scene in both languages: a ball lamp over a floor, and a box of fog or smoke.
 
-    def __init__(self, name, sigma_t, albedo, g, depth, size, grid=None):
+    plates: rectangles (x0, z0, x1, z1) that shade the box, all at the height PLATE_Y.
+    """
+
+    PLATE_Y = 1.4
+
+    def __init__(self, name, sigma_t, albedo, g, depth, size, grid=None, plates=()):
         self.name, self.sigma_t, self.albedo, self.g = name, sigma_t, albedo, g
-        self.depth, self.size, self.grid = depth, size, grid
+        self.depth, self.size, self.grid, self.plates = depth, size, grid, plates
 
     def pbrt_medium(self):
         sigma_s, sigma_a = self.sigma_t * self.albedo, self.sigma_t * (1 - self.albedo)
@@ -81,6 +63,11 @@ class Comparison:
         return (f'MakeNamedMedium "m" "string type" "uniformgrid" {text} "point3 p0" [-1 -1 -1] '
                 f'"point3 p1" [1 1 1] "integer nx" {n} "integer ny" {n} "integer nz" {n} '
                 f'"float density" [{values}]\n')
+
+    def pbrt_plates(self):
+        y = self.PLATE_Y
+        return "".join(f'Shape "bilinearmesh" "point3 P" [{x0} {y} {z0}  {x1} {y} {z0}  '
+                       f'{x0} {y} {z1}  {x1} {y} {z1}]\n' for x0, z0, x1, z1 in self.plates)
 
     def pbrt(self):
         corners = " ".join(f"{x} {y} {z}" for z in (-1, 1) for y, x in
@@ -101,7 +88,7 @@ AttributeBegin
 AttributeEnd
 Material "diffuse" "rgb reflectance" [0.5 0.5 0.5]
 Shape "bilinearmesh" "point3 P" [-4 -1.1 -4  4 -1.1 -4  -4 -1.1 4  4 -1.1 4]
-{self.pbrt_medium()}AttributeBegin
+{self.pbrt_plates()}{self.pbrt_medium()}AttributeBegin
   Material "interface"
   MediumInterface "m" ""
   Shape "trianglemesh" "point3 P" [{corners}] "integer indices" [{faces}]
@@ -118,9 +105,20 @@ AttributeEnd
                 "to_world": to_world, "filter_type": "trilinear"})
         return medium
 
+    def mitsuba_plates(self, mi):
+        transform = mi.ScalarTransform4f
+        return {f"plate{i}": {
+            "type": "rectangle",
+            "bsdf": {"type": "twosided", "bsdf": {"type": "diffuse", "reflectance": 0.5}},
+            "to_world": transform().translate([(x0 + x1) / 2, self.PLATE_Y, (z0 + z1) / 2])
+                                   .rotate([1, 0, 0], -90)
+                                   .scale([(x1 - x0) / 2, (z1 - z0) / 2, 1])}
+            for i, (x0, z0, x1, z1) in enumerate(self.plates)}
+
     def mitsuba(self, mi):
         transform = mi.ScalarTransform4f
         return {
+            **self.mitsuba_plates(mi),
             "type": "scene",
             # Depth 1 is emission seen directly; pbrt counts scattering vertices.
             "integrator": {"type": "volpath", "max_depth": self.depth + 1, "rr_depth": 1000},
@@ -224,9 +222,7 @@ def compare(mi, np, comparison, arguments, folder):
 
 def parse_arguments():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--program", type=pathlib.Path, default=ROOT / "build/release/tyndall")
-    parser.add_argument("--venv", type=pathlib.Path, default=ROOT / "build/mitsuba",
-                        help="where Mitsuba is, or is installed")
+    parser.add_argument("--program", type=pathlib.Path, default=peers.ROOT / "build/release/tyndall")
     parser.add_argument("--threads", type=int, default=len(os.sched_getaffinity(0)))
     parser.add_argument("--rounds", type=int, default=6)
     parser.add_argument("--spp", type=int, default=64)
@@ -240,7 +236,7 @@ def parse_arguments():
 
 def main():
     arguments = parse_arguments()
-    ensure_mitsuba(arguments.venv)
+    peers.use("mitsuba", "numpy")
     import drjit
     import mitsuba as mi
     import numpy as np
@@ -249,6 +245,7 @@ def main():
     comparisons = [
         Comparison("fog", 1.5, 0.95, 0.0, arguments.depth, arguments.size),
         Comparison("forward_fog", 3.0, 0.98, 0.7, arguments.depth, arguments.size),
+        Comparison("gobo", 1.5, 0.95, 0.3, arguments.depth, arguments.size, plates=GOBO),
         Comparison("grid", 8.0, 0.95, 0.3, arguments.depth, arguments.size, density_grid(48))]
     results = []
     with tempfile.TemporaryDirectory() as folder:

@@ -37,6 +37,12 @@ def environment(**variables):
     return {**kept, **variables}
 
 
+def write_pfm(path, image):
+    """Writes a color image (height, width, 3), row 0 on top."""
+    height, width, _ = image.shape
+    path.write_bytes(b"PF\n%d %d\n-1.0\n" % (width, height) + image[::-1].astype("<f4").tobytes())
+
+
 class ProgramTest(unittest.TestCase):
     """Runs the program in an empty folder that holds fog.pbrt."""
 

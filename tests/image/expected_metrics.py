@@ -23,27 +23,42 @@ def srgb(x):
     return np.where(x <= 0.0031308, 12.92 * x, 1.055 * x ** (1 / 2.4) - 0.055)
 
 
-def main():
-    image, reference = images()
+def flip(image, reference, kind):
+    """The map (height, width), its mean, and the parameters that were chosen."""
+    if kind == "LDR":
+        image, reference = (np.clip(i, 0, 1) for i in (image, reference))
+    values, mean, parameters = flip_evaluator.evaluate(reference, image, kind, inputsRGB=False,
+                                                       applyMagma=False)
+    return values[..., 0], mean, parameters
+
+
+def expected(image, reference):
+    """The metrics by their names in `tyndall compare --json`."""
     a, b = image.astype(np.float64), reference.astype(np.float64)
     relative = ((a - b) ** 2 / (b**2 + EPSILON)).mean(axis=2).ravel()
     kept = relative.size - int(np.ceil(1e-3 * relative.size))
-    print("mse", ((a - b) ** 2).mean())
-    print("rel_mse", relative.mean())
-    print("rel_mse_trimmed", np.sort(relative)[:kept].mean())
-    print("smape", (2 * np.abs(a - b) / (np.abs(a) + np.abs(b))).mean())
-    print("psnr", -10 * np.log10(((srgb(a) - srgb(b)) ** 2).mean()))
-    absolute = np.abs(a - b).mean(axis=2).ravel()
-    print("percentile", np.quantile(absolute, 0.999, method="inverted_cdf"))
-    print("mean", a.mean(), b.mean())
-    clipped = [np.clip(i, 0, 1) for i in (reference, image)]
-    ldr, mean, _ = flip_evaluator.evaluate(*clipped, "LDR", inputsRGB=False, applyMagma=False)
-    print("ldr_flip", mean, ldr[20, 30, 0], ldr[0, 0, 0], ldr[39, 47, 0])
-    hdr, mean, parameters = flip_evaluator.evaluate(reference, image, "HDR", applyMagma=False)
-    print("hdr_flip", mean, hdr[20, 30, 0], hdr[0, 0, 0], hdr[39, 47, 0], parameters)
+    return {"mse": ((a - b) ** 2).mean(),
+            "rel_mse": relative.mean(),
+            "rel_mse_trimmed": np.sort(relative)[:kept].mean(),
+            "smape": (2 * np.abs(a - b) / (np.abs(a) + np.abs(b))).mean(),
+            "psnr": -10 * np.log10(((srgb(a) - srgb(b)) ** 2).mean()),
+            "percentile_99_9": np.quantile(np.abs(a - b).mean(axis=2), 0.999,
+                                           method="inverted_cdf"),
+            "mean": a.mean(), "reference_mean": b.mean(),
+            "ldr_flip": flip(image, reference, "LDR")[1],
+            "hdr_flip": flip(image, reference, "HDR")[1]}
+
+
+def main():
+    image, reference = images()
+    for name, value in expected(image, reference).items():
+        print(name, value)
+    for kind in ("LDR", "HDR"):
+        values, _, parameters = flip(image, reference, kind)
+        print(kind, values[20, 30], values[0, 0], values[39, 47], parameters)
     reference[20, 10], image[20, 10] = 3e4, 2e4
-    hdr, mean, parameters = flip_evaluator.evaluate(reference, image, "HDR", applyMagma=False)
-    print("hdr_flip with a sun", mean, hdr[20, 12, 0], parameters)
+    values, mean, parameters = flip(image, reference, "HDR")
+    print("HDR with a sun", mean, values[20, 12], parameters)
 
 
 if __name__ == "__main__":
