@@ -8,7 +8,7 @@ JOBS := $(shell nproc)
 .PHONY: help setup build demo test clean
 
 help:
-	@echo "make demo    install what is missing, build, render a picture of light in dusty air"
+	@echo "make demo    install what is missing, build, show light in misty air, and what learning gains"
 	@echo "make test    install what is missing, build everything, run every test"
 	@echo "make setup   install the missing Debian packages (tools/debian-packages.txt)"
 	@echo "make build   build everything in $(BUILD)"
@@ -29,10 +29,7 @@ demo:
 	@test -f $(BUILD)/build.ninja || \
 	  cmake --preset release -DTYNDALL_BUILD_TESTS=OFF -DTYNDALL_BUILD_BENCH=OFF
 	cmake --build $(BUILD) --target tyndall_cli
-	@mkdir -p $(OUT)
-	$(BUILD)/tyndall render scenes/lantern.pbrt -o $(OUT)/demo.exr -o $(OUT)/demo.png
-	@echo
-	@echo "The picture is $(OUT)/demo.png; $(OUT)/demo.exr holds it with all its layers."
+	@tools/demo.sh $(BUILD)/tyndall $(OUT)
 
 test: build
 	ctest --preset release -j $(JOBS)

@@ -97,29 +97,51 @@ class Bench {
   size_t count_ = 0;
 };
 
-std::string ratio_text(const std::optional<RatioEstimate>& r) {
-  return r ? fmt::format("{:.3g} ({:.3g} to {:.3g})", r->ratio, r->low, r->high) : "-";
+std::string ratio_text(const Method& method, const Method& baseline, RunCost cost) {
+  const auto ratio = cost_ratio(method.runs, baseline.runs, cost);
+  return ratio ? ratio->text() : "-";
+}
+
+std::vector<std::string> summary_row(const Method& method, const Method& baseline) {
+  const auto mean = [&](double (*value)(const Run&)) {
+    return short_number(spread_over_runs(method.runs, value).mean);
+  };
+  return {method.name,
+          fmt::format("{}", method.runs.size()),
+          mean([](const Run& r) { return r.errors.rel_mse; }),
+          mean([](const Run& r) { return r.errors.rel_mse_trimmed; }),
+          mean([](const Run& r) { return r.seconds; }),
+          mean([](const Run& r) { return double{1} * r.samples_per_pixel; }),
+          ratio_text(method, baseline, cost_in_time),
+          ratio_text(method, baseline, trimmed_cost_in_time),
+          ratio_text(method, baseline, cost_in_samples)};
 }
 
 /// What was measured, for the terminal.
 std::string summary(const Results& results) {
   std::string text;
   for (const SceneResults& scene : results.scenes) {
-    std::vector<std::vector<std::string>> rows = {{scene.name, "runs", "relMSE",
-                                                   "samples/pixel", "times less time",
-                                                   "times fewer samples"}};
+    if (scene.methods.empty()) continue;
+    const Method& baseline = scene.methods.front();
+    std::vector<std::vector<std::string>> rows = {
+        {scene.name, "runs", "relMSE", "trimmed", "seconds", "samples/pixel",
+         "times less time", "trimmed", "times fewer samples"}};
+    std::string sentences;
     for (const Method& method : scene.methods) {
-      const auto& baseline = scene.methods.front().runs;
-      const auto mean = [&](double (*value)(const Run&)) {
-        return short_number(spread_over_runs(method.runs, value).mean);
-      };
-      rows.push_back({method.name, fmt::format("{}", method.runs.size()),
-                      mean([](const Run& r) { return r.errors.rel_mse; }),
-                      mean([](const Run& r) { return double{1} * r.samples_per_pixel; }),
-                      ratio_text(cost_ratio(method.runs, baseline, cost_in_time)),
-                      ratio_text(cost_ratio(method.runs, baseline, cost_in_samples))});
+      rows.push_back(summary_row(method, baseline));
+      const auto time = cost_ratio(method.runs, baseline.runs, cost_in_time);
+      if (&method == &baseline || !time) continue;
+      sentences += fmt::format("{}: the same error as {} in {}\n", method.name,
+                               baseline.name, time->time_words());
     }
-    text += text_table(rows) + "\n";
+    text += text_table(rows) + "\n" + sentences;
+    if (!sentences.empty() && is_reference_noisy(scene)) {
+      text += fmt::format(
+          "the reference's own relMSE of {:.2g} is part of these errors: the true ratios "
+          "are "
+          "further from 1\n",
+          *scene.reference_rel_mse);
+    }
   }
   return text;
 }

@@ -20,6 +20,7 @@ struct ConvertArguments {
   float exposure = 0;
   std::optional<std::string> reference;
   std::optional<ErrorKind> error;
+  std::optional<std::string> split;
   bool false_color = false;
   std::optional<ValueRange> range;
   WriteOptions write;
@@ -40,6 +41,8 @@ void check_arguments(const ConvertArguments& arguments) {
     throw UsageError("--error needs --reference");
   if (arguments.reference && !arguments.error)
     throw UsageError("--reference needs --error");
+  if (arguments.error && arguments.split)
+    throw UsageError("--error and --split exclude each other");
   if (arguments.range && !arguments.false_color)
     throw UsageError("--range needs --false-color");
 }
@@ -65,6 +68,7 @@ ExitCode run_convert_command(const ConvertArguments& arguments) {
       image =
           error_image(image, read_part(*arguments.reference, arguments), *arguments.error);
     }
+    if (arguments.split) image = split_image(image, read_part(*arguments.split, arguments));
     if (arguments.false_color) {
       std::optional<ValueRange> range = arguments.range;
       if (!image.has_rgb())
@@ -107,6 +111,7 @@ void declare_arguments(Command& command, ConvertArguments& a) {
               ArgumentParser([&a](const std::string& s) { a.error = parse_error_kind(s); }),
               "which error",
               {.choices = {"difference", "absolute", "relative", "flip", "hdr-flip"}})
+      .option("--split", &a.split, "take the right half from this image", {.value = "FILE"})
       .flag("--false-color", &a.false_color, "show the channels' mean in false color")
       .option("--range",
               ArgumentParser([&a](const std::string& s) { a.range = parse_range(s); }),

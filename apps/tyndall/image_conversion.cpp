@@ -169,6 +169,17 @@ Image error_image(const Image& image, const Image& reference, ErrorKind kind) {
   return grey_image(image, hdr_flip(image, reference));
 }
 
+Image split_image(const Image& left, const Image& right) {
+  check_comparable(right, left);
+  Image result = take(left, {"R", "G", "B"});
+  for (int y = 0; y < left.height(); ++y) {
+    for (int x = left.width() / 2; x < left.width(); ++x) {
+      result.set_rgb(x, y, right.rgb(x, y));
+    }
+  }
+  return result;
+}
+
 Image to_false_color(const Image& image, std::optional<ValueRange>& range) {
   const std::vector<float> values = channel_means(image);
   if (!range) range = choose_range(values);

@@ -37,6 +37,10 @@ Image expose_image(Image image, float stops);
 /// The error as R, G, B. Throws std::invalid_argument if the two cannot be compared.
 Image error_image(const Image& image, const Image& reference, ErrorKind kind);
 
+/// The left half of one image beside the right half of another, as R, G, B. Throws
+/// std::invalid_argument if the two cannot be compared.
+Image split_image(const Image& left, const Image& right);
+
 struct ValueRange {
   float low, high;
 };

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "apps/tyndall/commands.h"
+#include "apps/tyndall/report/error_curve.h"
 #include "apps/tyndall/report/report_page.h"
 #include "tyndall/image/whole_file.h"
 
@@ -15,6 +16,7 @@ namespace {
 struct ReportArguments {
   std::vector<std::string> results;
   std::string output = "report.html";
+  std::optional<std::string> plots;
 };
 
 /// A folder stands for the results.json in it.
@@ -38,9 +40,9 @@ ReportInput read_input(const std::string& path) {
   return input;
 }
 
-void write_page(const std::string& path, const std::string& page) {
+void write_text(const std::string& path, const std::string& text) {
   try {
-    write_whole_file(path, page);
+    write_whole_file(path, text);
   } catch (const std::runtime_error& error) {
     throw OutputError(error.what());
   }
@@ -54,14 +56,32 @@ void check_output(const std::string& path) {
   }
 }
 
+void write_plot(const std::string& path, const std::string& element) {
+  if (!element.starts_with("<svg")) return;
+  write_text(path, svg_file(element));
+  fmt::print("wrote {}\n", path);
+}
+
+void write_plots(const std::string& folder, const std::vector<ReportInput>& inputs) {
+  for (const ReportInput& input : inputs) {
+    for (const SceneResults& scene : input.results.scenes) {
+      const ScenePlots plots = scene_plots(scene, input.results.time_limit);
+      const std::string path = (std::filesystem::path(folder) / scene.name).string();
+      write_plot(path + "-time.svg", plots.time);
+      write_plot(path + "-samples.svg", plots.samples);
+    }
+  }
+}
+
 ExitCode run_report_command(const ReportArguments& arguments) {
   check_output(arguments.output);
   std::vector<ReportInput> inputs;
   for (const std::string& path : arguments.results) inputs.push_back(read_input(path));
   const std::string page = report_page(inputs);
-  write_page(arguments.output, page);
+  write_text(arguments.output, page);
   fmt::print("wrote {} ({:.1f} MB)\n", arguments.output,
              static_cast<double>(page.size()) / 1e6);
+  if (arguments.plots) write_plots(*arguments.plots, inputs);
   return ExitCode::done;
 }
 
@@ -74,6 +94,8 @@ void add_report_command(Program& program) {
                   "results.json files, or the folders that hold them",
                   {.value = "", .required = true})
       .option("-o,--output", &a->output, "the page [report.html]", {.value = "FILE"})
+      .option("--plots", &a->plots, "write the error plots here too, as SVG files",
+              {.value = "FOLDER"})
       .footer("Example:\n  tyndall report results -o report.html\n\n" + exit_code_help())
       .on_run([a] { return run_report_command(*a); });
 }

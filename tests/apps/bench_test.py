@@ -36,7 +36,8 @@ class ResultsTest(BenchTest):
             "fog: rendering the reference for 0.2 s with volpath\n[1/4] fog volpath seed 0: "))
         self.assertEqual(self.progress(result), [
             ("1", "volpath", "0"), ("2", "jis", "0"), ("3", "volpath", "1"), ("4", "jis", "1")])
-        self.assertRegex(result.stdout, r"^fog +runs +relMSE +samples/pixel +times less time")
+        self.assertRegex(result.stdout, r"^fog +runs +relMSE +trimmed +seconds +samples/pixel +times less time")
+        self.assertRegex(result.stdout, r"\njis: the same error as volpath in \S+ times ")
         self.assertTrue(result.stdout.endswith(
             "see all of it: tyndall report out -o out/report.html\n"))
         self.assertEqual(sorted(p.name for p in (self.folder / "out").iterdir()), [

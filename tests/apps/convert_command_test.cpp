@@ -76,6 +76,13 @@ TEST_F(ConvertCommandTest, ShowsErrors) {
   EXPECT_GT(error("hdr-flip"), 0.01f);
 }
 
+TEST_F(ConvertCommandTest, SplitsTwoImages) {
+  const Image image = convert(write("a.exr", 1), "s.pfm",
+                              {"--split", write("b.exr", 2), "--exposure", "1"});
+  EXPECT_EQ(image.rgb(3, 2), Rgb(2 * (1 + 3)));
+  EXPECT_EQ(image.rgb(4, 2), Rgb(2 * (2 + 4)));
+}
+
 TEST_F(ConvertCommandTest, ShowsFalseColor) {
   const std::string a = write("a.exr", 1);
   const Image given = convert(a, "f.pfm", {"--false-color", "--range", "1,8"});
@@ -92,6 +99,9 @@ TEST_F(ConvertCommandTest, ReportsWrongArguments) {
   EXPECT_EQ(err, "error: --error needs --reference\n");
   EXPECT_EQ(run({"convert", a, b, "--reference", a}), ExitCode::usage);
   EXPECT_EQ(err, "error: --reference needs --error\n");
+  EXPECT_EQ(run({"convert", a, b, "--error", "flip", "--reference", a, "--split", a}),
+            ExitCode::usage);
+  EXPECT_EQ(err, "error: --error and --split exclude each other\n");
   EXPECT_EQ(run({"convert", a, b, "--range", "0,1"}), ExitCode::usage);
   EXPECT_EQ(err, "error: --range needs --false-color\n");
   EXPECT_EQ(run({"convert", a, b, "--false-color", "--range", "1,1"}), ExitCode::usage);

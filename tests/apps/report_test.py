@@ -10,19 +10,15 @@ import re
 import shutil
 import subprocess
 import unittest
+import xml.etree.ElementTree
 
 import numpy as np
 
-from program import ProgramTest, environment
+from program import ProgramTest, environment, write_pfm
 
 WIDTH, HEIGHT = 96, 54
 METHODS = {"volpath": 0.3, "jis": 0.1, "learned <new>": 0.02}
 CHROMIUM = shutil.which("chromium-headless-shell") or shutil.which("chromium")
-
-
-def pfm(image):
-    height, width, _ = image.shape
-    return b"PF\n%d %d\n-1.0\n" % (width, height) + image[::-1].astype("<f4").tobytes()
 
 
 def errors(rel_mse):
@@ -53,7 +49,7 @@ class ReportTest(ProgramTest):
             self.images[name] = self.images["reference"] * noise
         self.images["volpath"][3, 5] = np.nan
         for name, image in self.images.items():
-            (self.folder / (re.sub(r"\W+", "_", name) + ".pfm")).write_bytes(pfm(image))
+            write_pfm(self.folder / (re.sub(r"\W+", "_", name) + ".pfm"), image)
         methods = [{"name": name, "integrator": name, "options": {},
                     "runs": [run(name, seed, variance * (1 + 0.1 * seed)) for seed in range(3)]}
                    for name, variance in METHODS.items()]
@@ -90,6 +86,15 @@ class PageTest(ReportTest):
         result = self.run_program("report", ".", "-o", "page.html")
         self.assertEqual(result.returncode, 0, result.stderr)
 
+    def test_writes_plots(self):
+        result = self.report("--plots", ".")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        for axis in ("time", "samples"):
+            root = xml.etree.ElementTree.parse(self.folder / f"fog & <lamp>-{axis}.svg").getroot()
+            self.assertEqual(root.tag, "{http://www.w3.org/2000/svg}svg")
+            lines = root.findall(".//{http://www.w3.org/2000/svg}polyline")
+            self.assertEqual(len(lines), len(METHODS))
+
     def test_needs_no_network(self):
         page = self.page()
         self.assertNotRegex(page, r"https?://")
@@ -115,7 +120,7 @@ class PageTest(ReportTest):
         for expected in ("fog &amp; &lt;lamp&gt;", "<td>learned &lt;new&gt;</td>", "relMSE",
                          "tyndall render fog.pbrt --seed 2", "tyndall bench fog.pbrt",
                          "learned &lt;new&gt;: learning took a while", "path.length.mean",
-                         "15 (11.8 to 19)", "<td>0.1</td><td>-</td><td>1</td>", "read the ratios as lower bounds", "<svg",
+                         "15 (11.8 to 19)", "<td>0.1</td><td>-</td><td>1</td>", "the true ratios are further from 1", "<svg",
                          "data:image/png;base64,"):
             self.assertTrue(expected in text, expected)
         self.assertFalse("<lamp>" in text)
@@ -149,7 +154,7 @@ class MessageTest(ReportTest):
         self.check(2, "jis.pfm: cannot read: No such file or directory")
 
     def test_image_of_another_size(self):
-        (self.folder / "jis.pfm").write_bytes(pfm(np.ones((4, 4, 3))))
+        write_pfm(self.folder / "jis.pfm", np.ones((4, 4, 3)))
         self.check(2, "jis.pfm: the image has 4 x 4 pixels, the reference 96 x 54")
 
     def test_unwritable_page(self):

@@ -4,9 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
 
-#include "apps/tyndall/report/efficiency.h"
 #include "apps/tyndall/report/error_curve.h"
 #include "image/temporary_folder.h"
 #include "tyndall/image/whole_file.h"
@@ -76,53 +74,6 @@ TEST(ResultsTest, SayWhatIsWrong) {
   EXPECT_EQ(message_of([&] { read_results(folder.file("r.json")); }),
             folder.file("r.json") +
                 ": not a file of results: \"format\" is not \"tyndall-results\"");
-}
-
-TEST(EfficiencyTest, RatioIsOfGeometricMeans) {
-  const std::vector<app::Run> slow = {run_of(0.4, 10), run_of(0.1, 10)};
-  const std::vector<app::Run> fast = {run_of(0.1, 5), run_of(0.025, 5)};
-  const auto ratio = cost_ratio(fast, slow, cost_in_time);
-  ASSERT_TRUE(ratio);
-  EXPECT_NEAR(ratio->ratio, 8, 1e-12);  // 0.2 * 10 / (0.05 * 5)
-  // Standard error of a mean logarithm: ln 4 / 2; two of them; 2 degrees of freedom.
-  const double half = 4.303 * std::sqrt(2.0) * std::log(4) / 2;
-  EXPECT_NEAR(ratio->low, 8 * std::exp(-half), 1e-9);
-  EXPECT_NEAR(ratio->high, 8 * std::exp(half), 1e-6);
-  EXPECT_NEAR(cost_ratio(fast, slow, cost_in_samples)->ratio, 4, 1e-12);
-  EXPECT_NEAR(cost_ratio(fast, slow, trimmed_cost_in_time)->ratio, 8, 1e-12);
-}
-
-TEST(EfficiencyTest, IsEmptyWhereThereIsNoRatio) {
-  const std::vector<app::Run> one = {run_of(0.4, 10)},
-                              two = {run_of(0.4, 10), run_of(0.3, 10)};
-  const std::vector<app::Run> exact = {run_of(0, 10), run_of(0, 10)};
-  EXPECT_FALSE(cost_ratio(one, two, cost_in_time));
-  EXPECT_FALSE(cost_ratio(two, exact, cost_in_time));
-}
-
-// What issue 6 asks for: the interval of an integrator against itself holds 1 in 19 of 20.
-TEST(EfficiencyTest, IntervalHoldsOneForTheSameMethod) {
-  std::mt19937 random(1);
-  std::normal_distribution<double> noise(0, 0.3);
-  const auto runs = [&] {
-    std::vector<app::Run> result;
-    for (int i = 0; i < 5; ++i) result.push_back(run_of(std::exp(noise(random)), 30));
-    return result;
-  };
-  int misses = 0;
-  for (int i = 0; i < 2000; ++i) {
-    const auto ratio = cost_ratio(runs(), runs(), cost_in_time);
-    misses += ratio->low > 1 || ratio->high < 1;
-  }
-  EXPECT_NEAR(misses / 2000.0, 0.05, 0.015);  // three standard errors
-}
-
-TEST(EfficiencyTest, StudentQuantilesAreTheTables) {
-  EXPECT_EQ(student_quantile_975(1), 12.706);
-  EXPECT_EQ(student_quantile_975(8), 2.306);
-  EXPECT_EQ(student_quantile_975(8.9), 2.306);
-  EXPECT_EQ(student_quantile_975(0.5), 12.706);
-  EXPECT_NEAR(student_quantile_975(1e9), 1.96, 0.02);
 }
 
 /// Error 1 / t times `factor` at 1, 2, 4, ... seconds.

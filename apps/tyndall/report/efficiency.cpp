@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tyndall/report/efficiency.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "tyndall/math/scalar.h"
@@ -32,6 +36,23 @@ double welch_degrees_of_freedom(const RunningMoments& a, const RunningMoments& b
 
 }  // namespace
 
+std::string RatioEstimate::text() const {
+  if (!interval) return fmt::format("{:.3g}", ratio);
+  return fmt::format("{:.3g} ({:.3g} to {:.3g})", ratio, interval->low, interval->high);
+}
+
+std::string RatioEstimate::time_words() const {
+  const bool is_gain = ratio >= 1;
+  const auto gain = [&](double x) { return is_gain ? x : 1 / x; };
+  std::string words =
+      fmt::format("{:.3g} times {}", gain(ratio), is_gain ? "less time" : "the time");
+  if (interval) {
+    const auto [low, high] = std::minmax({gain(interval->low), gain(interval->high)});
+    words += fmt::format(" (95 % confidence: {:.3g} to {:.3g})", low, high);
+  }
+  return words;
+}
+
 double cost_in_time(const Run& run) { return run.errors.rel_mse * run.seconds; }
 
 double cost_in_samples(const Run& run) {
@@ -59,12 +80,23 @@ double student_quantile_975(double degrees_of_freedom) {
 std::optional<RatioEstimate> cost_ratio(const std::vector<Run>& method,
                                         const std::vector<Run>& baseline, RunCost cost) {
   const auto m = log_costs(method, cost), b = log_costs(baseline, cost);
-  if (!m || !b || m->count() < 2 || b->count() < 2) return std::nullopt;
+  if (!m || !b || m->count() < 1 || b->count() < 1) return std::nullopt;
   const double difference = b->mean() - m->mean();
+  if (m->count() < 2 || b->count() < 2)
+    return RatioEstimate{std::exp(difference), std::nullopt};
   const double error = std::hypot(m->standard_error(), b->standard_error());
   const double half = error * student_quantile_975(welch_degrees_of_freedom(*m, *b));
-  return RatioEstimate{std::exp(difference), std::exp(difference - half),
-                       std::exp(difference + half)};
+  return RatioEstimate{
+      std::exp(difference),
+      ConfidenceInterval{std::exp(difference - half), std::exp(difference + half)}};
+}
+
+bool is_reference_noisy(const SceneResults& scene) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const Method& method : scene.methods) {
+    for (const Run& run : method.runs) smallest = std::min(smallest, run.errors.rel_mse);
+  }
+  return scene.reference_rel_mse.value_or(0) > 0.1 * smallest;
 }
 
 Spread spread_over_runs(const std::vector<Run>& runs, double (*value)(const Run&)) {

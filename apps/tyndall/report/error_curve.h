@@ -29,6 +29,10 @@ ErrorCurve error_curve(const Method& method, CurveAxis axis);
 std::string svg_plot(const std::vector<ErrorCurve>& curves, const std::string& x_label,
                      double marker);
 
+/// An element of svg_plot() as a file of its own, dark on white.
+/// Precondition: it is a plot, not the sentence that there is none.
+std::string svg_file(const std::string& element);
+
 /// The color of the i-th method, the same in plots and legends: "#0072b2", ...
 std::string method_color(size_t i);
 

@@ -25,14 +25,8 @@ struct PageScene {
 };
 
 std::string plots_html(const SceneResults& scene, double time_limit) {
-  std::vector<ErrorCurve> time, samples;
-  for (const Method& method : scene.methods) {
-    time.push_back(error_curve(method, CurveAxis::seconds));
-    samples.push_back(error_curve(method, CurveAxis::samples_per_pixel));
-  }
-  return "<div class=\"plots\">" +
-         svg_plot(time, "seconds of rendering, learning included", time_limit) +
-         svg_plot(samples, "samples per pixel", 0) + "</div>\n";
+  const ScenePlots plots = scene_plots(scene, time_limit);
+  return "<div class=\"plots\">" + plots.time + plots.samples + "</div>\n";
 }
 
 /// The exposure at which the reference's mean becomes a middle grey [stops].
@@ -150,6 +144,16 @@ std::string data_html(const std::vector<PageScene>& scenes, int steps) {
 }
 
 }  // namespace
+
+ScenePlots scene_plots(const SceneResults& scene, double time_limit) {
+  std::vector<ErrorCurve> time, samples;
+  for (const Method& method : scene.methods) {
+    time.push_back(error_curve(method, CurveAxis::seconds));
+    samples.push_back(error_curve(method, CurveAxis::samples_per_pixel));
+  }
+  return {svg_plot(time, "seconds of rendering, learning included", time_limit),
+          svg_plot(samples, "samples per pixel", 0)};
+}
 
 std::string report_page(const std::vector<ReportInput>& inputs) {
   std::vector<PageScene> scenes;

@@ -11,6 +11,13 @@ namespace tyndall::app {
 /// The most bytes that a page may have.
 constexpr size_t report_size_limit = 20'000'000;
 
+/// The error plots of a scene: SVG elements, or a sentence where there is too little for
+/// one.
+struct ScenePlots {
+  std::string time, samples;
+};
+ScenePlots scene_plots(const SceneResults& scene, double time_limit);
+
 struct ReportInput {
   Results results;
   std::string folder;  ///< of the results file: its images lie relative to it

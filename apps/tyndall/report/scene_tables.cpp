@@ -48,7 +48,7 @@ std::string mean_and_deviation(const Method& method, double (*value)(const Run&)
 }
 
 std::string ratio_text(const std::optional<RatioEstimate>& r) {
-  return r ? fmt::format("{:.3g} ({:.3g} to {:.3g})", r->ratio, r->low, r->high) : "-";
+  return r ? r->text() : "-";
 }
 
 /// "bias" of all runs: how many of them differ from the reference at 5 % for their tiles
@@ -115,18 +115,13 @@ std::string notes_html(const SceneResults& scene) {
 /// Warns where the reference's own noise is part of the measured errors.
 std::string reference_html(const SceneResults& scene) {
   if (!scene.reference_rel_mse) return "";
-  double smallest = 1e300;
-  for (const Method& method : scene.methods) {
-    for (const Run& run : method.runs) smallest = std::min(smallest, run.errors.rel_mse);
-  }
-  const double own = *scene.reference_rel_mse;
   return fmt::format(
       "<p class=\"quiet\">The reference itself has {:.0f} samples per pixel and a "
       "relMSE of about {:.2g}{}.</p>\n",
-      scene.reference_samples_per_pixel, own,
-      own > 0.1 * smallest
+      scene.reference_samples_per_pixel, *scene.reference_rel_mse,
+      is_reference_noisy(scene)
           ? ", which is more than a tenth of the smallest error measured with it: "
-            "read the ratios as lower bounds"
+            "the true ratios are further from 1"
           : "");
 }
 
@@ -139,11 +134,9 @@ std::string summary_html(const SceneResults& scene) {
     const Method& baseline = scene.methods.front();
     const auto time = cost_ratio(method.runs, baseline.runs, cost_in_time);
     if (!time) continue;
-    html += fmt::format(
-        "<p><strong>{}</strong> reaches the error of {} in {:.2f} times less time "
-        "(95 % confidence: {:.2f} to {:.2f}).</p>\n",
-        escape_html(method.name), escape_html(baseline.name), time->ratio, time->low,
-        time->high);
+    html += fmt::format("<p><strong>{}</strong>: the same error as {} in {}.</p>\n",
+                        escape_html(method.name), escape_html(baseline.name),
+                        time->time_words());
   }
   return html + reference_html(scene);
 }

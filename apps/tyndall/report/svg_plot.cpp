@@ -149,4 +149,14 @@ std::string svg_plot(const std::vector<ErrorCurve>& curves, const std::string& x
   return svg;
 }
 
+std::string svg_file(const std::string& element) {
+  constexpr const char* style =
+      "<style>text{font:12px sans-serif;fill:#1c2024}.grid path{stroke:#d5dade}"
+      ".marker{stroke:#1c2024;stroke-dasharray:5 4;opacity:.6}</style>"
+      "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>";
+  const size_t name = std::string("<svg").size(), inside = element.find('>') + 1;
+  return "<svg xmlns=\"http://www.w3.org/2000/svg\"" + element.substr(name, inside - name) +
+         style + element.substr(inside) + "\n";
+}
+
 }  // namespace tyndall::app
