@@ -109,6 +109,22 @@ TEST(FlipTest, AgreesOverSixteenStops) {
   EXPECT_NEAR(hdr_flip(image, reference)[20 * 48 + 12], 0.068269484f, 1e-5f);
 }
 
+TEST(FlipTest, SeveralImagesAtOnceAreTheSame) {
+  const auto [image, reference] = formula_images();
+  const auto maps = hdr_flip({&image, &reference}, reference);
+  EXPECT_EQ(maps.at(0), hdr_flip(image, reference));
+  EXPECT_EQ(maps.at(1), std::vector<float>(image.pixel_count()));
+}
+
+TEST(FlipTest, PixelsThatAreNotFiniteCountAsEqual) {
+  auto [image, reference] = formula_images();
+  Image broken = image, mended = image;
+  broken.set_rgb(10, 20, Rgb(std::numeric_limits<float>::quiet_NaN()));
+  mended.set_rgb(10, 20, reference.rgb(10, 20));
+  EXPECT_EQ(hdr_flip(broken, reference), hdr_flip(mended, reference));
+  EXPECT_EQ(ldr_flip(broken, reference), ldr_flip(mended, reference));
+}
+
 TEST(FlipTest, EndsOfTheScale) {
   const Image green = constant(40, 40, {0, 1, 0}), blue = constant(40, 40, {0, 0, 1});
   for (float value : ldr_flip(green, green)) EXPECT_EQ(value, 0);

@@ -46,13 +46,14 @@ ScenePictures read_pictures(const SceneResults& scene, const std::string& folder
     } catch (const std::invalid_argument& error) {
       throw std::runtime_error(fmt::format("{}: {}", file, error.what()));
     }
-    picture.flip = hdr_flip(picture.image, reference);
     result.pictures.push_back(std::move(picture));
   }
   std::vector<const Image*> images;
   for (size_t i = 1; i < result.pictures.size(); ++i) {
     images.push_back(&result.pictures[i].image);
   }
+  std::vector<std::vector<float>> maps = hdr_flip(images, reference);
+  for (size_t i = 0; i < maps.size(); ++i) result.pictures[i + 1].flip = std::move(maps[i]);
   result.insets = choose_insets(images, reference, 3);
   return result;
 }

@@ -3,9 +3,13 @@
 // those of the first.
 #include "tyndall/image/flip.h"
 
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <mutex>
 
 #include "tyndall/image/flip_color.h"
 #include "tyndall/image/flip_filter.h"
@@ -52,43 +56,43 @@ Seen see(Planes planes, double pixels_per_degree) {
 
 /// Compresses large colour differences into [0, 1] (Sec. 4.1.3); blue against green is the
 /// largest.
-double redistribute(double difference) {
-  constexpr double exponent = 0.7, knee = 0.4, knee_value = 0.95;
-  static const double largest =
-      std::pow(hyab(hunt_lab_from_rgb({0, 1, 0}), hunt_lab_from_rgb({0, 0, 1})), exponent);
-  const double x = std::pow(difference, exponent), knee_x = knee * largest;
+float redistribute(double difference) {
+  constexpr float exponent = 0.7f, knee = 0.4f, knee_value = 0.95f;
+  static const float largest = std::pow(
+      static_cast<float>(hyab(hunt_lab_from_rgb({0, 1, 0}), hunt_lab_from_rgb({0, 0, 1}))),
+      exponent);
+  const float x = std::pow(static_cast<float>(difference), exponent),
+              knee_x = knee * largest;
   if (x < knee_x) return knee_value / knee_x * x;
   return knee_value + (x - knee_x) / (largest - knee_x) * (1 - knee_value);
 }
 
-std::vector<float> flip_of_display_images(const Planes& image, const Planes& reference,
-                                          double pixels_per_degree) {
-  const Seen a = see(reference, pixels_per_degree), b = see(image, pixels_per_degree);
-  std::vector<float> map(image[0].values.size());
+std::vector<float> compare(const Seen& a, const Seen& b) {
+  std::vector<float> map(a.colors[0].values.size());
   for (size_t i = 0; i < map.size(); ++i) {
     const auto color = [&](const Seen& s) {
       return Triple{s.colors[0].values[i], s.colors[1].values[i], s.colors[2].values[i]};
     };
-    const double color_difference = redistribute(hyab(color(a), color(b)));
+    const float color_difference = redistribute(hyab(color(a), color(b)));
     const float edges = std::abs(a.features.edges.values[i] - b.features.edges.values[i]);
     const float points =
         std::abs(a.features.points.values[i] - b.features.points.values[i]);
-    const double feature_difference =
-        std::sqrt(double{std::max(edges, points)} / std::sqrt(2.0));
-    map[i] = static_cast<float>(std::pow(color_difference, 1 - feature_difference));
+    const float feature_difference = std::sqrt(std::max(edges, points) / std::sqrt(2.0f));
+    map[i] = std::pow(color_difference, 1 - feature_difference);
   }
   return map;
 }
 
-/// The pixels of `image` by `tone`, those that are not finite in either image black.
+/// The pixels of `image` by `tone`: those that are not finite are the reference's, or black
+/// if those are not finite either.
 template <typename Tone>
-Planes display_planes(const Image& image, const Image& other, Tone tone) {
-  const RgbPlanes own = image.rgb_planes(), others = other.rgb_planes();
+Planes display_planes(const Image& image, const Image& reference, Tone tone) {
+  const RgbPlanes own = image.rgb_planes(), expected = reference.rgb_planes();
   const Plane zero{image.width(), image.height(), std::vector<float>(image.pixel_count())};
   Planes planes{zero, zero, zero};
   for (size_t i = 0; i < image.pixel_count(); ++i) {
-    if (!is_finite(own[i]) || !is_finite(others[i])) continue;
-    const Rgb value = tone(own[i]);
+    if (!is_finite(expected[i])) continue;
+    const Rgb value = tone(is_finite(own[i]) ? own[i] : expected[i]);
     for (int c = 0; c < 3; ++c) planes[static_cast<size_t>(c)].values[i] = value[c];
   }
   return planes;
@@ -104,6 +108,12 @@ float aces(double x) {
       (above_a * x + above_b) * x / ((below_a * x + below_b) * x + below_c), 0.0, 1.0));
 }
 
+Rgb expose(Rgb L, double factor) {
+  const Rgb x = clamp_negative(L);
+  return {aces(factor * double{x.r}), aces(factor * double{x.g}),
+          aces(factor * double{x.b})};
+}
+
 /// The luminance that the curve maps to 0.85.
 double luminance_at_85_percent() {
   const double a = above_a - 0.85 * below_a, b = above_b - 0.85 * below_b,
@@ -116,9 +126,11 @@ double luminance_at_85_percent() {
 
 std::vector<float> ldr_flip(const Image& image, const Image& reference, float exposure,
                             double pixels_per_degree) {
-  const auto tone = [&](Rgb L) { return tone_map(L, {.exposure = exposure}); };
-  return flip_of_display_images(display_planes(image, reference, tone),
-                                display_planes(reference, image, tone), pixels_per_degree);
+  const auto see_image = [&](const Image& shown) {
+    const auto tone = [&](Rgb L) { return tone_map(L, {.exposure = exposure}); };
+    return see(display_planes(shown, reference, tone), pixels_per_degree);
+  };
+  return compare(see_image(image), see_image(reference));
 }
 
 ExposureRange hdr_flip_exposures(const Image& reference) {
@@ -142,24 +154,36 @@ ExposureRange hdr_flip_exposures(const Image& reference) {
   return range;
 }
 
-std::vector<float> hdr_flip(const Image& image, const Image& reference,
-                            double pixels_per_degree) {
+std::vector<std::vector<float>> hdr_flip(const std::vector<const Image*>& images,
+                                         const Image& reference, double pixels_per_degree) {
   const ExposureRange range = hdr_flip_exposures(reference);
-  std::vector<float> largest(image.pixel_count());
-  for (int i = 0; i < range.count; ++i) {
+  std::vector<std::vector<float>> largest(images.size(),
+                                          std::vector<float>(reference.pixel_count()));
+  std::mutex mutex;
+  const auto look = [&](int i) {
     const double factor =
         std::exp2(range.start + i * (range.stop - range.start) / (range.count - 1));
-    const auto tone = [&](Rgb L) {
-      const Rgb x = clamp_negative(L);
-      return Rgb(aces(factor * double{x.r}), aces(factor * double{x.g}),
-                 aces(factor * double{x.b}));
+    const auto see_image = [&](const Image& shown) {
+      const auto tone = [&](Rgb L) { return expose(L, factor); };
+      return see(display_planes(shown, reference, tone), pixels_per_degree);
     };
-    const std::vector<float> map =
-        flip_of_display_images(display_planes(image, reference, tone),
-                               display_planes(reference, image, tone), pixels_per_degree);
-    for (size_t p = 0; p < map.size(); ++p) largest[p] = std::max(largest[p], map[p]);
-  }
+    const Seen expected = see_image(reference);
+    for (size_t k = 0; k < images.size(); ++k) {
+      const std::vector<float> map = compare(see_image(*images[k]), expected);
+      const std::lock_guard lock(mutex);
+      for (size_t p = 0; p < map.size(); ++p)
+        largest[k][p] = std::max(largest[k][p], map[p]);
+    }
+  };
+  // Each exposure holds some twenty planes: a few at a time.
+  tbb::task_arena arena(std::min(4, tbb::this_task_arena::max_concurrency()));
+  arena.execute([&] { tbb::parallel_for(0, range.count, look); });
   return largest;
+}
+
+std::vector<float> hdr_flip(const Image& image, const Image& reference,
+                            double pixels_per_degree) {
+  return hdr_flip(std::vector{&image}, reference, pixels_per_degree).front();
 }
 
 }  // namespace tyndall

@@ -31,4 +31,10 @@ ExposureRange hdr_flip_exposures(const Image& reference);
 std::vector<float> hdr_flip(const Image& image, const Image& reference,
                             double pixels_per_degree = flip_pixels_per_degree);
 
+/// hdr_flip() of several images against one reference, in less time than one by one; up to
+/// four exposures at a time run in threads.
+std::vector<std::vector<float>> hdr_flip(const std::vector<const Image*>& images,
+                                         const Image& reference,
+                                         double pixels_per_degree = flip_pixels_per_degree);
+
 }  // namespace tyndall
