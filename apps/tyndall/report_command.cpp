@@ -25,9 +25,18 @@ std::string results_file(const std::string& path) {
   return is_folder ? (std::filesystem::path(path) / "results.json").string() : path;
 }
 
-ReportInput read_input(const std::string& path) {
+/// A folder as a page in another file sees it.
+std::string seen_from(const std::string& page, const std::filesystem::path& folder) {
+  const auto absolute = [](const std::filesystem::path& path) {
+    return std::filesystem::absolute(path).lexically_normal();
+  };
+  return absolute(folder / ".").lexically_relative(absolute(page).parent_path()).string();
+}
+
+ReportInput read_input(const std::string& path, const std::string& page) {
   const std::string file = results_file(path);
-  ReportInput input{read_results(file), std::filesystem::path(file).parent_path().string()};
+  const std::filesystem::path folder = std::filesystem::path(file).parent_path();
+  ReportInput input{read_results(file), folder.string(), seen_from(page, folder)};
   for (const SceneResults& scene : input.results.scenes) {
     const bool has_runs = !scene.methods.empty() && !scene.methods.front().runs.empty();
     if (!has_runs) {
@@ -76,7 +85,9 @@ void write_plots(const std::string& folder, const std::vector<ReportInput>& inpu
 ExitCode run_report_command(const ReportArguments& arguments) {
   check_output(arguments.output);
   std::vector<ReportInput> inputs;
-  for (const std::string& path : arguments.results) inputs.push_back(read_input(path));
+  for (const std::string& path : arguments.results) {
+    inputs.push_back(read_input(path, arguments.output));
+  }
   const std::string page = report_page(inputs);
   write_text(arguments.output, page);
   fmt::print("wrote {} ({:.1f} MB)\n", arguments.output,

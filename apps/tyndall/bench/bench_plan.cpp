@@ -63,9 +63,10 @@ std::vector<std::string> scene_names(const std::vector<std::string>& paths) {
   std::vector<std::string> short_names, long_names;
   for (const std::string& path : paths) {
     const auto absolute = std::filesystem::absolute(path);
-    short_names.push_back(absolute.stem().string());
-    long_names.push_back(absolute.parent_path().filename().string() + "-" +
-                         short_names.back());
+    const std::string stem = absolute.stem().string(),
+                      folder = absolute.parent_path().filename().string();
+    short_names.push_back(stem == "scene" ? folder : stem);
+    long_names.push_back(folder + "-" + stem);
   }
   if (are_unique(short_names)) return short_names;
   if (!are_unique(long_names)) {

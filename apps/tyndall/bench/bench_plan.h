@@ -30,8 +30,9 @@ struct BenchPlan {
 /// colons; the text of each is the method's name. Throws std::invalid_argument.
 std::vector<Method> parse_methods(const std::string& text);
 
-/// A short name for each scene: the file's, or with its folder's before it where that would
-/// not be unique. Throws UsageError if that is not unique either.
+/// A short name for each scene: the file's, or its folder's if that is "scene", or with its
+/// folder's before it where that would not be unique. Throws UsageError if that is not
+/// unique either.
 std::vector<std::string> scene_names(const std::vector<std::string>& paths);
 
 /// Throws UsageError if the plan does not make sense.

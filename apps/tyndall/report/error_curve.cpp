@@ -49,15 +49,32 @@ ErrorCurve::Point point_at(const std::vector<LogLine>& lines, double x) {
           std::exp(high)};
 }
 
-}  // namespace
-
-ErrorCurve error_curve(const Method& method, CurveAxis axis) {
-  ErrorCurve curve{method.name, {}, 0};
+/// A line for each run with two checkpoints or more.
+std::vector<LogLine> log_lines(const Method& method, CurveAxis axis) {
   std::vector<LogLine> lines;
-  double training = 0;
   for (const Run& run : method.runs) {
     const LogLine line = log_line(run, axis);
     if (line.size() >= 2) lines.push_back(line);
+  }
+  return lines;
+}
+
+}  // namespace
+
+std::optional<double> error_at(const Method& method, CurveAxis axis, double x) {
+  const std::vector<LogLine> lines = log_lines(method, axis);
+  const bool inside = std::all_of(lines.begin(), lines.end(), [&](const LogLine& line) {
+    return line.front().x <= std::log(x) && std::log(x) <= line.back().x;
+  });
+  if (lines.size() < method.runs.size() || lines.empty() || !inside) return std::nullopt;
+  return point_at(lines, std::log(x)).mean;
+}
+
+ErrorCurve error_curve(const Method& method, CurveAxis axis) {
+  ErrorCurve curve{method.name, {}, 0};
+  const std::vector<LogLine> lines = log_lines(method, axis);
+  double training = 0;
+  for (const Run& run : method.runs) {
     training += run.training_seconds / static_cast<double>(method.runs.size());
   }
   if (lines.empty()) return curve;

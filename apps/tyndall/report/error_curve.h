@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,10 @@ enum class CurveAxis { seconds, samples_per_pixel };
 
 /// Interpolates the seeds' checkpoints log-log at common places.
 ErrorCurve error_curve(const Method& method, CurveAxis axis);
+
+/// The geometric mean of the seeds' relMSE at `x`; empty where a seed has no checkpoints
+/// around it.
+std::optional<double> error_at(const Method& method, CurveAxis axis, double x);
 
 /// An SVG element: both axes logarithmic, a line per curve with a band for the spread of
 /// its seeds, a vertical dashed line at `marker` if that is above zero.

@@ -42,6 +42,7 @@ const KEYS = {
   '-': v => v.zoomTo(v.view.zoom / 1.5),
   p: v => v.zoomTo(devicePixelRatio),
   '0': v => v.fit(),
+  b: v => v.blink(),
   h: () => toggleHelp(),
   '?': () => toggleHelp(),
 };
@@ -76,7 +77,21 @@ function start() {
   const [first, ...others] = document.querySelectorAll('.viewer');
   others.forEach(element => near.observe(element));
   addEventListener('keydown', onKey);
+  document.querySelectorAll('.filter').forEach(startFilter);
   openIt(first);
+}
+
+// Check boxes that hide methods from the plots and tables of their scene.
+function startFilter(bar) {
+  bar.hidden = false;
+  for (const box of bar.querySelectorAll('input')) {
+    box.onchange = () => {
+      const marked = `[data-method="${box.dataset.method}"]:not(input)`;
+      for (const element of bar.closest('section').querySelectorAll(marked)) {
+        element.style.display = box.checked ? '' : 'none';
+      }
+    };
+  }
 }
 
 async function open(element, scene) {

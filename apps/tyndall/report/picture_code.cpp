@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tyndall/report/picture_code.h"
 
+#define ZLIB_CONST
 #include <zlib.h>
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 #include <stdexcept>
 
 namespace tyndall::app {
@@ -89,12 +91,23 @@ std::string encode_map(std::span<const float> values, int width) {
 }
 
 std::string deflate_bytes(const std::string& bytes) {
-  uLongf size = compressBound(bytes.size());
-  std::string packed(size, '\0');
-  const int code = compress2(reinterpret_cast<Bytef*>(packed.data()), &size,
-                             reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(), 9);
-  if (code != Z_OK) throw std::runtime_error("zlib cannot compress a picture");
-  packed.resize(size);
+  // Run lengths: residuals hold few longer repetitions, and looking for those takes a
+  // hundred times longer and saves 1 %.
+  z_stream stream{};
+  constexpr int window_bits = 15, memory_level = 9;
+  if (deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, window_bits, memory_level,
+                   Z_RLE) != Z_OK) {
+    throw std::bad_alloc();
+  }
+  std::string packed(deflateBound(&stream, static_cast<uLong>(bytes.size())), '\0');
+  stream.next_in = reinterpret_cast<const Bytef*>(bytes.data());
+  stream.avail_in = static_cast<uInt>(bytes.size());
+  stream.next_out = reinterpret_cast<Bytef*>(packed.data());
+  stream.avail_out = static_cast<uInt>(packed.size());
+  const int code = deflate(&stream, Z_FINISH);
+  deflateEnd(&stream);
+  if (code != Z_STREAM_END) throw std::runtime_error("zlib cannot compress a picture");
+  packed.resize(stream.total_out);
   return packed;
 }
 

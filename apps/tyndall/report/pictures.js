@@ -106,6 +106,28 @@ class Picture {
     }
   }
 
+  // The mean over the pixels of an error, those left out where it is not a number.
+  meanOf(show, reference) {
+    this.means ??= {};
+    return this.means[show] ??= mean(this.errors(show, reference));
+  }
+
+  *errors(show, reference) {
+    const count = this.levels[0].length, value = this.scene.radiance;
+    for (let i = 0; i < count; ++i) {
+      if (show === 'flip') {
+        yield this.flip[i] / 63;
+        continue;
+      }
+      let sum = 0;
+      for (let c = 0; c < 3; ++c) {
+        const r = value[reference.levels[c][i]], d = value[this.levels[c][i]] - r;
+        sum += show === 'relative' ? d * d / (r * r + this.scene.epsilon) : d;
+      }
+      yield sum / 3;
+    }
+  }
+
   paintFlip(pixels) {
     const colors = colorTable(64, inferno);
     for (let i = 0; i < pixels.length; ++i) pixels[i] = colors[this.flip ? this.flip[i] : 0];
@@ -126,6 +148,16 @@ class Picture {
       pixels[i] = Number.isNaN(sum) ? 0xffff00ff : colors[Math.round(clamp(t, 0, 1) * last)];
     }
   }
+}
+
+function mean(values) {
+  let sum = 0, count = 0;
+  for (const x of values) {
+    if (!Number.isFinite(x)) continue;
+    sum += x;
+    ++count;
+  }
+  return sum / count;
 }
 
 // `count` packed colors of a color map.

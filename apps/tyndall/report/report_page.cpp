@@ -11,16 +11,30 @@
 #include "apps/tyndall/report/report_assets.h"
 #include "apps/tyndall/report/scene_pictures.h"
 #include "apps/tyndall/report/scene_tables.h"
+#include "apps/tyndall/text_table.h"
 #include "tyndall/image/codec.h"
+#include "tyndall/image/metrics.h"
 
 namespace tyndall::app {
 
 namespace {
 
+double mean_finite(const std::vector<float>& values) {
+  double sum = 0;
+  size_t count = 0;
+  for (const float x : values) {
+    if (!std::isfinite(x)) continue;
+    sum += double{x};
+    ++count;
+  }
+  return sum / static_cast<double>(count);
+}
+
 /// A scene with its pictures and the results that it is part of.
 struct PageScene {
   const SceneResults* scene;
   const Results* results;
+  std::string link_folder;
   ScenePictures pictures;
 };
 
@@ -29,23 +43,23 @@ std::string plots_html(const SceneResults& scene, double time_limit) {
   return "<div class=\"plots\">" + plots.time + plots.samples + "</div>\n";
 }
 
-/// The exposure at which the reference's mean becomes a middle grey [stops].
-float middle_exposure(const Image& reference) {
-  const RgbPlanes planes = reference.rgb_planes();
-  double sum = 0;
-  size_t count = 0;
-  for (size_t i = 0; i < reference.pixel_count(); ++i) {
-    const float y = luminance(planes[i]);
-    if (!std::isfinite(y)) continue;
-    sum += std::min(double{y}, 1e6);
-    ++count;
-  }
-  return sum > 0 ? static_cast<float>(std::log2(0.18 * static_cast<double>(count) / sum))
-                 : 0;
+std::string inset_cell(const ScenePicture& picture, const Image& reference,
+                       const Inset& inset, const ToneMapping& tone, double epsilon) {
+  const Image part = cut_out(picture.image, inset);
+  const std::string error = picture.flip.empty()
+                                ? ""
+                                : short_number(mean_finite(relative_square_errors(
+                                      part, cut_out(reference, inset), epsilon)));
+  return fmt::format(
+      "<td><img data-inset=\"{0},{1},{2}\" width=\"{2}\" height=\"{2}\" alt=\"{3} at {0}, "
+      "{1}\" src=\"{4}\"><span class=\"quiet\">{5}</span></td>",
+      inset.x, inset.y, inset.size, escape_html(picture.name),
+      png_url(encode_png(part, tone)), error);
 }
 
-std::string insets_html(const ScenePictures& pictures) {
-  const ToneMapping tone{.exposure = middle_exposure(pictures.pictures.front().image)};
+std::string insets_html(const ScenePictures& pictures, double epsilon) {
+  const ToneMapping tone{.exposure = pictures.exposure};
+  const Image& reference = pictures.pictures.front().image;
   std::string html = fmt::format(
       "<div class=\"wide\"><table class=\"insets\" style=\"--columns: {}\"><tr>",
       pictures.pictures.size());
@@ -56,16 +70,15 @@ std::string insets_html(const ScenePictures& pictures) {
   for (const Inset& inset : pictures.insets) {
     html += "<tr>";
     for (const ScenePicture& picture : pictures.pictures) {
-      html += fmt::format(
-          "<td><img data-inset=\"{0},{1},{2}\" width=\"{2}\" height=\"{2}\" alt=\"{3} at "
-          "{0}, "
-          "{1}\" src=\"{4}\"></td>",
-          inset.x, inset.y, inset.size, escape_html(picture.name),
-          png_url(encode_png(cut_out(picture.image, inset), tone)));
+      html += inset_cell(picture, reference, inset, tone, epsilon);
     }
     html += "</tr>\n";
   }
-  return html + "</table></div>\n<p class=\"quiet\">A click shows the place above.</p>\n";
+  return html + fmt::format(
+                    "</table></div>\n<p class=\"quiet\">relMSE of each part, of one run; "
+                    "shown {:+g} "
+                    "stops brighter than the file. A click shows the place above.</p>\n",
+                    pictures.exposure);
 }
 
 std::string scene_html(const PageScene& page, int number) {
@@ -78,8 +91,10 @@ std::string scene_html(const PageScene& page, int number) {
       "tables, "
       "plots and insets do not.</noscript></div>\n",
       number);
-  html += "<h3>Where they differ most</h3>\n" + insets_html(page.pictures);
-  html += "<h3>Error</h3>\n" + plots_html(scene, page.results->time_limit);
+  html += "<h3>Where they differ most</h3>\n" +
+          insets_html(page.pictures, page.results->epsilon);
+  html +=
+      "<h3>Error</h3>\n" + filter_html(scene) + plots_html(scene, page.results->time_limit);
   html +=
       "<p class=\"quiet\">Lines: geometric means over the seeds; bands: smallest to "
       "largest; "
@@ -94,7 +109,8 @@ std::string scene_html(const PageScene& page, int number) {
       "reference's "
       "at 5 % for all tiles together; ratios against {} with 95 % confidence.</p>\n",
       page.results->epsilon, escape_html(scene.methods.front().name));
-  html += "<details><summary>All runs</summary>\n" + run_table_html(scene) + "</details>\n";
+  html += "<details><summary>All runs</summary>\n" +
+          run_table_html(scene, page.link_folder) + "</details>\n";
   html += "<h3>Diagnostics</h3>\n" + diagnostics_html(scene);
   html += "<h3>The same images again</h3>\n" + commands_html(scene);
   return html + "</section>\n";
@@ -111,14 +127,23 @@ std::string machine_html(const Results& r) {
       escape_html(r.created), escape_html(r.command));
 }
 
-std::string head_html() {
+std::string head_html(const std::string& title) {
   return fmt::format(
       "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<link rel=\"icon\" href=\"data:,\">\n"
-      "<title>Tyndall: results</title>\n<style>\n{}</style>\n</head>\n<body>\n"
-      "<h1>Results</h1>\n",
-      asset::report_css);
+      "<title>{0}</title>\n<style>\n{1}</style>\n</head>\n<body>\n<h1>{0}</h1>\n",
+      escape_html(title), asset::report_css);
+}
+
+/// "volpath, learned: fog", or how many scenes there are.
+std::string page_title(const std::vector<PageScene>& scenes) {
+  if (scenes.size() != 1) return fmt::format("{} scenes", scenes.size());
+  std::string names;
+  for (const Method& method : scenes.front().scene->methods) {
+    names += (names.empty() ? "" : ", ") + method.name;
+  }
+  return names + ": " + scenes.front().scene->name;
 }
 
 std::string navigation_html(const std::vector<PageScene>& scenes) {
@@ -161,10 +186,11 @@ std::string report_page(const std::vector<ReportInput>& inputs) {
   for (const ReportInput& input : inputs) {
     machines += machine_html(input.results);
     for (const SceneResults& scene : input.results.scenes) {
-      scenes.push_back({&scene, &input.results, read_pictures(scene, input.folder)});
+      scenes.push_back(
+          {&scene, &input.results, input.link_folder, read_pictures(scene, input.folder)});
     }
   }
-  std::string text = head_html() + navigation_html(scenes);
+  std::string text = head_html(page_title(scenes)) + navigation_html(scenes);
   for (size_t i = 0; i < scenes.size(); ++i)
     text += scene_html(scenes[i], static_cast<int>(i));
   text += "<h2>Made with</h2>\n" + machines + asset::help_html;

@@ -20,7 +20,8 @@ ScenePlots scene_plots(const SceneResults& scene, double time_limit);
 
 struct ReportInput {
   Results results;
-  std::string folder;  ///< of the results file: its images lie relative to it
+  std::string folder;       ///< of the results file: its images lie relative to it
+  std::string link_folder;  ///< the same, as the page sees it
 };
 
 /// One HTML page that needs nothing else. Pictures are stored in levels of 2.2 %, or

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -24,6 +26,23 @@ Image read_color(const std::string& folder, const std::string& name) {
     throw std::runtime_error(fmt::format("{}: the image has no R, G and B channels", path));
   }
   return image;
+}
+
+/// Zero for a picture of usual brightness; otherwise what makes its mean a middle grey, in
+/// quarter stops.
+float choose_exposure(const Image& reference) {
+  const RgbPlanes planes = reference.rgb_planes();
+  double sum = 0;
+  size_t count = 0;
+  for (size_t i = 0; i < reference.pixel_count(); ++i) {
+    const float y = luminance(planes[i]);
+    if (!std::isfinite(y)) continue;
+    sum += std::clamp(double{y}, 0.0, 4.0);
+    ++count;
+  }
+  const double mean = count > 0 ? sum / static_cast<double>(count) : 0;
+  if (mean <= 0 || (mean > 0.03 && mean < 0.6)) return 0;
+  return static_cast<float>(std::round(4 * std::log2(0.18 / mean)) / 4);
 }
 
 std::string data_element(const std::string& id, const std::string& bytes) {
@@ -54,6 +73,7 @@ ScenePictures read_pictures(const SceneResults& scene, const std::string& folder
   }
   std::vector<std::vector<float>> maps = hdr_flip(images, reference);
   for (size_t i = 0; i < maps.size(); ++i) result.pictures[i + 1].flip = std::move(maps[i]);
+  result.exposure = choose_exposure(reference);
   result.insets = choose_insets(images, reference, 3);
   return result;
 }
@@ -75,8 +95,10 @@ PackedPictures pack_pictures(const ScenePictures& pictures, double epsilon, int 
     list.push_back(entry);
   }
   const nlohmann::json description = {
-      {"width", reference.width()}, {"height", reference.height()}, {"floor", scale.floor},
-      {"steps", scale.steps},       {"epsilon", epsilon},           {"pictures", list}};
+      {"width", reference.width()},   {"height", reference.height()},
+      {"floor", scale.floor},         {"steps", scale.steps},
+      {"epsilon", epsilon},           {"pictures", list},
+      {"exposure", pictures.exposure}};
   packed.description =
       description.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
   return packed;

@@ -21,6 +21,7 @@ struct ScenePicture {
 struct ScenePictures {
   std::vector<ScenePicture> pictures;
   std::vector<Inset> insets;
+  float exposure = 0;  ///< [stops] at which insets are and viewers begin
 };
 
 /// Reads the images; `folder` is where the results file lies. Throws std::runtime_error if

@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <set>
 #include <vector>
 
 #include "apps/tyndall/report/efficiency.h"
+#include "apps/tyndall/report/error_curve.h"
 #include "apps/tyndall/report/html_text.h"
 #include "apps/tyndall/text_table.h"
 
@@ -17,22 +19,38 @@ namespace tyndall::app {
 
 namespace {
 
-using Row = std::vector<std::string>;
+struct Cell {
+  std::string text, link;  // no link if empty
+
+  Cell(std::string text_, std::string link_ = "")
+      : text(std::move(text_)), link(std::move(link_)) {}
+  Cell(const char* text_) : text(text_) {}
+
+  std::string html() const {
+    if (link.empty()) return escape_html(text);
+    return fmt::format("<a href=\"{}\">{}</a>", escape_html(link), escape_html(text));
+  }
+};
+
+using Row = std::vector<Cell>;
 
 constexpr double not_measured = std::numeric_limits<double>::quiet_NaN();
 
-std::string row_html(const Row& cells, const char* tag) {
-  std::string html = "<tr>";
-  for (const std::string& cell : cells) {
-    html += fmt::format("<{0}>{1}</{0}>", tag, escape_html(cell));
-  }
+std::string row_html(const Row& cells, const char* tag, const std::string& attribute = "") {
+  std::string html = "<tr" + attribute + ">";
+  for (const Cell& cell : cells) html += fmt::format("<{0}>{1}</{0}>", tag, cell.html());
   return html + "</tr>\n";
 }
 
-std::string table_html(const Row& head, const std::vector<Row>& rows) {
+/// `methods`: whose rows these are, for the page's filter; empty: nobody's.
+std::string table_html(const Row& head, const std::vector<Row>& rows,
+                       const std::vector<size_t>& methods = {}) {
   std::string html =
       "<div class=\"wide\"><table><thead>" + row_html(head, "th") + "</thead><tbody>\n";
-  for (const Row& row : rows) html += row_html(row, "td");
+  for (size_t i = 0; i < rows.size(); ++i) {
+    html += row_html(rows[i], "td",
+                     methods.empty() ? "" : fmt::format(" data-method=\"{}\"", methods[i]));
+  }
   return html + "</tbody></table></div>\n";
 }
 
@@ -77,15 +95,32 @@ Row error_row(const Method& method) {
           bias_text(method)};
 }
 
-Row cost_row(const Method& method, const Method& baseline) {
+/// The samples per pixel that all runs of all methods reached.
+double common_samples(const SceneResults& scene) {
+  double samples = std::numeric_limits<double>::infinity();
+  for (const Method& method : scene.methods) {
+    for (const Run& run : method.runs)
+      samples = std::min(samples, double{1} * run.samples_per_pixel);
+  }
+  return samples;
+}
+
+std::string error_at_text(const Method& method, double samples) {
+  const auto error = error_at(method, CurveAxis::samples_per_pixel, samples);
+  return error ? short_number(*error) : "-";
+}
+
+Row cost_row(const Method& method, const Method& baseline, double samples) {
   return {method.name,
           fmt::format("{}", method.runs.size()),
           mean_of(method, [](const Run& r) { return double{1} * r.samples_per_pixel; }),
           mean_of(method, [](const Run& r) { return r.seconds; }),
           mean_of(method, [](const Run& r) { return r.training_seconds; }),
+          mean_of(method, [](const Run& r) { return 1e-6 * double(r.paths) / r.seconds; }),
           ratio_text(cost_ratio(method.runs, baseline.runs, cost_in_time)),
           ratio_text(cost_ratio(method.runs, baseline.runs, trimmed_cost_in_time)),
-          ratio_text(cost_ratio(method.runs, baseline.runs, cost_in_samples))};
+          ratio_text(cost_ratio(method.runs, baseline.runs, cost_in_samples)),
+          error_at_text(method, samples)};
 }
 
 std::string counter_text(const Method& method, const std::string& name) {
@@ -125,6 +160,24 @@ std::string reference_html(const SceneResults& scene) {
           : "");
 }
 
+Row run_row(const Method& method, const Run& run, const std::string& folder) {
+  const std::string bias = run.bias
+                               ? fmt::format("{:+.2g} ± {:.1g}", run.bias->mean_difference,
+                                             1.96 * run.bias->standard_error)
+                               : "-";
+  return {method.name,
+          fmt::format("{}", run.seed),
+          short_number(run.errors.rel_mse),
+          short_number(run.errors.rel_mse_trimmed),
+          bias,
+          run.bias ? short_number(run.bias->p_value) : "-",
+          fmt::format("{}", run.samples_per_pixel),
+          short_number(run.seconds),
+          fmt::format("{}", run.errors.not_finite),
+          fmt::format("{}", run.rejected_samples),
+          Cell(run.image, (std::filesystem::path(folder) / run.image).string())};
+}
+
 }  // namespace
 
 std::string summary_html(const SceneResults& scene) {
@@ -141,40 +194,48 @@ std::string summary_html(const SceneResults& scene) {
   return html + reference_html(scene);
 }
 
+std::string filter_html(const SceneResults& scene) {
+  std::string html = "<div class=\"bar filter\" hidden>";
+  for (size_t i = 0; i < scene.methods.size(); ++i) {
+    html += fmt::format(
+        "<label><input type=\"checkbox\" checked data-method=\"{}\"> {}</label>", i,
+        escape_html(scene.methods[i].name));
+  }
+  return html + "</div>\n";
+}
+
 std::string method_table_html(const SceneResults& scene) {
   std::vector<Row> errors, costs;
-  for (const Method& method : scene.methods) {
+  std::vector<size_t> methods;
+  const double samples = common_samples(scene);
+  for (size_t i = 0; i < scene.methods.size(); ++i) {
+    const Method& method = scene.methods[i];
     if (method.runs.empty()) continue;
     errors.push_back(error_row(method));
-    costs.push_back(cost_row(method, scene.methods.front()));
+    costs.push_back(cost_row(method, scene.methods.front(), samples));
+    methods.push_back(i);
   }
   return table_html({"method", "relMSE", "trimmed", "MSE", "SMAPE", "PSNR [dB]", "FLIP",
                      "HDR-FLIP", "99.9 %", "biased runs"},
-                    errors) +
+                    errors, methods) +
          table_html({"method", "runs", "samples/pixel", "seconds", "of them learning",
-                     "times less time", "trimmed", "times fewer samples"},
-                    costs);
+                     "million paths/s", "times less time", "trimmed", "times fewer samples",
+                     fmt::format("relMSE at {:g} samples/pixel", samples)},
+                    costs, methods);
 }
 
-std::string run_table_html(const SceneResults& scene) {
+std::string run_table_html(const SceneResults& scene, const std::string& folder) {
   std::vector<Row> rows;
-  for (const Method& method : scene.methods) {
-    for (const Run& run : method.runs) {
-      rows.push_back({method.name, fmt::format("{}", run.seed),
-                      short_number(run.errors.rel_mse),
-                      short_number(run.errors.rel_mse_trimmed),
-                      run.bias ? fmt::format("{:+.2g} ± {:.1g}", run.bias->mean_difference,
-                                             1.96 * run.bias->standard_error)
-                               : "-",
-                      run.bias ? short_number(run.bias->p_value) : "-",
-                      fmt::format("{}", run.samples_per_pixel), short_number(run.seconds),
-                      fmt::format("{}", run.errors.not_finite),
-                      fmt::format("{}", run.rejected_samples), run.image});
+  std::vector<size_t> methods;
+  for (size_t i = 0; i < scene.methods.size(); ++i) {
+    for (const Run& run : scene.methods[i].runs) {
+      rows.push_back(run_row(scene.methods[i], run, folder));
+      methods.push_back(i);
     }
   }
   return table_html({"method", "seed", "relMSE", "trimmed", "bias", "p", "samples/pixel",
                      "seconds", "not finite", "rejected", "image"},
-                    rows);
+                    rows, methods);
 }
 
 std::string diagnostics_html(const SceneResults& scene) {
@@ -186,15 +247,18 @@ std::string diagnostics_html(const SceneResults& scene) {
       for (const auto& [name, value] : run.counters) names.insert(name);
     }
   }
-  std::vector<Row> rows;
+  std::vector<Row> rows = {{"learning, % of the time"}};
+  for (const Method& method : scene.methods) {
+    rows.back().push_back(
+        mean_of(method, [](const Run& r) { return 100 * r.training_seconds / r.seconds; }));
+  }
   for (const std::string& name : names) {
     rows.push_back({name});
     for (const Method& method : scene.methods) {
       rows.back().push_back(counter_text(method, name));
     }
   }
-  return notes_html(scene) +
-         (rows.empty() ? "<p>No counters.</p>\n" : table_html(head, rows));
+  return notes_html(scene) + table_html(head, rows);
 }
 
 std::string commands_html(const SceneResults& scene) {
@@ -202,7 +266,9 @@ std::string commands_html(const SceneResults& scene) {
   for (const Method& method : scene.methods) {
     for (const Run& run : method.runs) text += run.command + "\n";
   }
-  return "<pre>" + escape_html(text) + "</pre>\n";
+  return fmt::format("<p class=\"quiet\">{}, {} x {}, hash {}</p>\n<pre>{}</pre>\n",
+                     escape_html(scene.path), scene.width, scene.height,
+                     escape_html(scene.hash), escape_html(text));
 }
 
 }  // namespace tyndall::app

@@ -132,7 +132,8 @@ std::string svg_plot(const std::vector<ErrorCurve>& curves, const std::string& x
       width, height, escape_html(x_label));
   svg += grid(plot);
   for (size_t i = 0; i < curves.size(); ++i) {
-    svg += curve_svg(plot, curves[i], method_color(i));
+    svg += fmt::format("<g data-method=\"{}\">{}</g>", i,
+                       curve_svg(plot, curves[i], method_color(i)));
   }
   if (marker > plot.x.low && marker < plot.x.high) {
     svg += fmt::format("<path class=\"marker\" d=\"M{:.1f} {}V{}\"/>", plot.x.at(marker),

@@ -6,7 +6,7 @@ class Viewer {
   constructor(element, scene) {
     this.element = element;
     this.scene = scene;
-    this.view = {mode: scene.pictures.length > 2 ? 'split' : 'flip', show: 'image', exposure: 0,
+    this.view = {mode: scene.pictures.length > 2 ? 'split' : 'flip', show: 'image', exposure: scene.exposure,
                  curve: 'plain', zoom: 1, x: scene.width / 2, y: scene.height / 2, split: 0.5,
                  left: Math.min(1, scene.pictures.length - 1), right: scene.pictures.length - 1,
                  last: 0};
@@ -27,6 +27,8 @@ class Viewer {
       [p.name, `show ${p.name} (key ${i || "r"})`, () => this.show(i), v => v.left === i]));
     this.group(bar, [['flip', 'f'], ['split', 's'], ['side by side', 'g']].map(([mode, key]) =>
       [mode, `${mode} (key ${key})`, () => this.set({mode}), v => v.mode === mode]));
+    this.group(bar, [['blink', 'flip by itself (key b)', () => this.blink(),
+                      () => Boolean(this.blinking)]]);
     bar.append(this.select('right', 'right of the split',
                            this.scene.pictures.map((p, i) => [i, 'right: ' + p.name]), Number));
     bar.append(this.select('show', 'image or error (key e)', [['image', 'image'],
@@ -43,7 +45,9 @@ class Viewer {
     this.canvas.setAttribute('role', 'img');
     this.status = document.createElement('div');
     this.status.className = 'status';
-    this.element.append(bar, this.canvas, this.status);
+    this.legend = document.createElement('div');
+    this.legend.className = 'legend';
+    this.element.append(bar, this.canvas, this.legend, this.status);
     this.context = this.canvas.getContext('2d');
   }
 
@@ -203,13 +207,33 @@ class Viewer {
     context.drawImage(picture.paint(view, this.scene.reference), x + w / 2 - view.x * z,
                       y + h / 2 - view.y * z, this.scene.width * z, this.scene.height * z);
     context.font = `${13 * devicePixelRatio}px system-ui, sans-serif`;
-    const label = picture.name, size = context.measureText(label).width;
+    const label = this.label(picture), size = context.measureText(label).width;
     const left = from === undefined ? x + 6 : x + w - size - 18;
     context.fillStyle = '#000a';
     context.fillRect(left, y + 6, size + 12, 21 * devicePixelRatio);
     context.fillStyle = '#fff';
     context.fillText(label, left + 6, y + 6 + 15 * devicePixelRatio);
     context.restore();
+  }
+
+  // The name, and the mean of the error that is shown.
+  label(picture) {
+    const {show} = this.view;
+    if (show === 'image' || picture === this.scene.reference) return picture.name;
+    const mean = picture.meanOf(show, this.scene.reference);
+    return `${picture.name}: mean ${mean.toPrecision(3)}`;
+  }
+
+  // Flips between the picture and the last one by itself, until it is called again.
+  blink() {
+    if (this.blinking) {
+      clearInterval(this.blinking);
+      this.blinking = 0;
+    } else {
+      this.set({mode: 'flip'});
+      this.blinking = setInterval(() => this.flipBack(), 400);
+    }
+    this.draw();
   }
 
   updateControls() {
@@ -226,7 +250,27 @@ class Viewer {
       : this.view.mode === 'split' ? [this.view.left, this.view.right] : [];
     this.canvas.setAttribute('aria-label', `${this.view.mode}: ` +
       (names.map(i => this.scene.pictures[i].name).join(' | ') || 'all pictures'));
-    if (!this.pointed) this.status.textContent = SCALES[this.view.show];
+    this.showLegend();
+  }
+
+  showLegend() {
+    const scale = SCALES[this.view.show];
+    if (this.legendOf === scale) return;
+    this.legendOf = scale;
+    this.legend.replaceChildren();
+    if (!scale) return;
+    const [title, map, texts] = scale, bar = document.createElement('div');
+    const stops = Array.from({length: 17}, (_, i) => `rgb(${map(i / 16).join()})`);
+    bar.className = 'scale';
+    bar.style.background = `linear-gradient(90deg, ${stops.join()})`;
+    const marks = document.createElement('div');
+    marks.className = 'marks';
+    marks.append(...texts.map(text => {
+      const mark = document.createElement('span');
+      mark.textContent = text;
+      return mark;
+    }));
+    this.legend.append(title, bar, marks);
   }
 
   // --- mouse and fingers ------------------------------------------------------------------
@@ -240,10 +284,7 @@ class Viewer {
     c.onpointerdown = event => this.grab(event);
     c.onpointermove = event => this.move(event);
     c.onpointerup = c.onpointercancel = event => this.release(event);
-    c.onpointerleave = () => {
-      this.pointed = false;
-      this.status.textContent = SCALES[this.view.show];
-    };
+    c.onpointerleave = () => { this.status.textContent = ''; };
     c.ondblclick = () => this.fit();
     addEventListener('resize', () => {
       this.resize();
@@ -291,16 +332,17 @@ class Viewer {
   // The values of all pictures under the pointer.
   tell(place) {
     const [x, y] = this.imagePoint(...place).map(Math.floor), {width, height} = this.scene;
-    this.pointed = x >= 0 && y >= 0 && x < width && y < height;
-    this.status.textContent = !this.pointed ? SCALES[this.view.show]
-      : `pixel ${x}, ${y}   ` + this.scene.pictures.map(p => `${p.name} ` +
+    const inside = x >= 0 && y >= 0 && x < width && y < height;
+    this.status.textContent = !inside ? '' : `pixel ${x}, ${y}   ` + this.scene.pictures.map(p => `${p.name} ` +
         p.radiance(y * width + x).map(v => v.toPrecision(3)).join(' ')).join('   ');
   }
 }
 
+// What false colors mean: a title, the color map over [0, 1], and texts along it.
 const SCALES = {
-  image: '',
-  relative: 'relative square error: black 0.0001, purple 0.003, orange 0.1, pale yellow 10',
-  difference: 'image minus reference, times 2^exposure: blue -0.5, white 0, red +0.5',
-  flip: 'HDR-FLIP: black 0 (no visible difference) to pale yellow 1',
+  image: null,
+  relative: ['relative square error', inferno, ['0.0001', '0.001', '0.01', '0.1', '1', '10']],
+  difference: ['image minus reference, times 2^exposure', t => blueWhiteRed(2 * t - 1),
+               ['-0.5', '0', '+0.5']],
+  flip: ['HDR-FLIP: 0 is no visible difference', inferno, ['0', '0.5', '1']],
 };
