@@ -3,7 +3,8 @@
 # The demonstration: one good picture, then the same view by plain path tracing and by the learned
 # integrator in the same time, measured against the good picture; a page that shows both.
 # usage: tools/demo.sh [PROGRAM [FOLDER]]
-# DEMO_SECONDS: time of each of the pair [15]; DEMO_PICTURE_SECONDS: of the good picture [30].
+# DEMO_SECONDS: time of each of the pair [15]; DEMO_PICTURE_SECONDS: of the good picture [30];
+# DEMO_SEEDS: how many pairs are measured [1]; DEMO_SCENE: the scene.
 set -euo pipefail
 
 program=${1:-build/release/tyndall}
@@ -26,9 +27,9 @@ status=0
 [[ $status == 0 || $status == 4 ]] || exit "$status"
 
 echo "The same view, $seconds s each, by volpath and by learned:"
-"$program" bench "$scene" --integrators volpath,learned --time "$seconds" --seeds 1 \
+"$program" bench "$scene" --integrators volpath,learned --time "$seconds" --seeds "${DEMO_SEEDS:-1}" \
   --reference "$out/demo.exr" -o "$pair" > "$out/bench.txt"
-"$program" report "$pair" -o "$out/report.html" > /dev/null
+"$program" report "$pair" -o "$out/report.html" --plots "$out" > /dev/null
 for method in volpath learned; do
   "$program" convert "$pair/$name-$method-0.exr" "$out/$method.png" "${look[@]}"
 done

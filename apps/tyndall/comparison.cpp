@@ -82,9 +82,9 @@ std::string remarks(const ComparisonReport& report) {
 }
 
 nlohmann::json comparison_object(const Comparison& c) {
-  nlohmann::json object = to_json(c.errors);
+  nlohmann::json object = write_json(c.errors);
   object["path"] = c.path;
-  object["bias"] = to_json(c.bias);
+  object["bias"] = write_json(c.bias);
   return object;
 }
 

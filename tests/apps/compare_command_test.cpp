@@ -108,6 +108,13 @@ TEST_F(CompareCommandTest, ReportsWhatCannotBeCompared) {
       err, "error: " + folder.file("x.exr") + ": cannot read: No such file or directory\n");
 }
 
+TEST_F(CompareCommandTest, ReportsATruncatedFile) {
+  const std::string a = write("a.exr", 1), reference = write("r.exr", 1);
+  std::filesystem::resize_file(a, std::filesystem::file_size(a) / 2);
+  EXPECT_EQ(run({"compare", a, "--reference", reference}), ExitCode::scene);
+  EXPECT_EQ(err, "error: " + a + ": cannot read: the file ends too early\n");
+}
+
 TEST_F(CompareCommandTest, ReportsWrongArguments) {
   const std::string a = write("a.exr", 1), r = write("r.exr", 1);
   EXPECT_EQ(run({"compare", a, "--reference", r, "--epsilon", "0"}), ExitCode::usage);

@@ -65,10 +65,16 @@ TEST(ResultsTest, SayWhatIsWrong) {
   EXPECT_EQ(message("{}"), "not a file of results: \"format\" is not \"tyndall-results\"");
   EXPECT_EQ(message("[1]"), "not a file of results: \"format\" is not \"tyndall-results\"");
   EXPECT_EQ(message(R"({"format": "tyndall-results", "version": 2})"),
-            "results of version 2; this program reads version 1");
-  EXPECT_TRUE(message("{").starts_with("not a file of results: "));
-  EXPECT_NE(message(R"({"format": "tyndall-results", "version": 1})").find("'created'"),
-            std::string::npos);
+            "not a file of results: it has version 2, this program reads version 1");
+  EXPECT_TRUE(message("{").starts_with("not a file of results: parse error at line 1"));
+  EXPECT_EQ(message(R"({"format": "tyndall-results", "version": 1})"),
+            "not a file of results: created is missing");
+  std::string text = to_json(example());
+  const size_t place = text.find("\"seconds\": 30.0");
+  ASSERT_NE(place, std::string::npos) << text;
+  EXPECT_EQ(message(text.replace(place, 15, "\"seconds\": true")),
+            "not a file of results: scenes[0].methods[0].runs[0].seconds must be a number, "
+            "not boolean");
   const TemporaryFolder folder;
   write_whole_file(folder.file("r.json"), "{}");
   EXPECT_EQ(message_of([&] { read_results(folder.file("r.json")); }),

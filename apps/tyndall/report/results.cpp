@@ -18,147 +18,100 @@ using Json = nlohmann::json;
 constexpr const char* format_name = "tyndall-results";
 constexpr int format_version = 1;
 
-template <typename Item>
-Json array_of(const std::vector<Item>& items, Json (*convert)(const Item&)) {
-  Json array = Json::array();
-  for (const Item& item : items) array.push_back(convert(item));
-  return array;
+}  // namespace
+
+void fields(auto& archive, Of<Checkpoint> auto& c) {
+  archive("seconds", c.seconds);
+  archive("samples_per_pixel", c.samples_per_pixel);
+  archive("mse", c.mse);
+  archive("rel_mse", c.rel_mse);
+  archive("rel_mse_trimmed", c.rel_mse_trimmed);
 }
 
-template <typename Item>
-std::vector<Item> items_of(const Json& array, Item (*convert)(const Json&)) {
-  std::vector<Item> items;
-  for (const Json& json : array) items.push_back(convert(json));
-  return items;
+void fields(auto& archive, Of<Run> auto& run) {
+  archive("seed", run.seed);
+  archive("seconds", run.seconds);
+  archive("training_seconds", run.training_seconds);
+  archive("cpu_seconds", run.cpu_seconds);
+  archive("samples_per_pixel", run.samples_per_pixel);
+  archive("paths", run.paths);
+  archive("rejected_samples", run.rejected_samples);
+  archive("checkpoints", run.checkpoints);
+  archive("errors", run.errors);
+  archive("bias", run.bias);
+  archive("image", run.image);
+  archive("counters", run.counters);
+  archive("notes", run.notes);
+  archive("command", run.command);
 }
 
-Json from_checkpoint(const Checkpoint& c) {
-  return {{"seconds", c.seconds},
-          {"samples_per_pixel", c.samples_per_pixel},
-          {"mse", c.mse},
-          {"rel_mse", c.rel_mse},
-          {"rel_mse_trimmed", c.rel_mse_trimmed}};
+void fields(auto& archive, Of<Method> auto& method) {
+  archive("name", method.name);
+  archive("integrator", method.integrator);
+  archive("options", method.options);
+  archive("runs", method.runs);
 }
 
-Checkpoint to_checkpoint(const Json& json) {
-  return {json.at("seconds"), json.at("samples_per_pixel"),
-          number_from_json(json.at("mse")), number_from_json(json.at("rel_mse")),
-          number_from_json(json.at("rel_mse_trimmed"))};
+void fields(auto& archive, Of<SceneResults> auto& scene) {
+  archive("name", scene.name);
+  archive("path", scene.path);
+  archive("hash", scene.hash);
+  archive("width", scene.width);
+  archive("height", scene.height);
+  archive("reference", scene.reference);
+  archive("reference_samples_per_pixel", scene.reference_samples_per_pixel);
+  archive("reference_rel_mse", scene.reference_rel_mse);
+  archive("methods", scene.methods);
 }
 
-Json from_run(const Run& run) {
-  return {{"seed", run.seed},
-          {"seconds", run.seconds},
-          {"training_seconds", run.training_seconds},
-          {"cpu_seconds", run.cpu_seconds},
-          {"samples_per_pixel", run.samples_per_pixel},
-          {"paths", run.paths},
-          {"rejected_samples", run.rejected_samples},
-          {"checkpoints", array_of(run.checkpoints, from_checkpoint)},
-          {"errors", to_json(run.errors)},
-          {"bias", to_json(run.bias)},
-          {"image", run.image},
-          {"counters", run.counters},
-          {"notes", run.notes},
-          {"command", run.command}};
+void fields(auto& archive, Of<Machine> auto& machine) {
+  archive("cpu", machine.cpu);
+  archive("system", machine.system);
+  archive("cores", machine.cores);
+  archive("memory_bytes", machine.memory_bytes);
 }
 
-Run to_run(const Json& json) {
-  Run run;
-  run.seed = json.at("seed");
-  run.seconds = json.at("seconds");
-  run.training_seconds = json.at("training_seconds");
-  run.cpu_seconds = json.at("cpu_seconds");
-  run.samples_per_pixel = json.at("samples_per_pixel");
-  run.paths = json.at("paths");
-  run.rejected_samples = json.at("rejected_samples");
-  run.checkpoints = items_of(json.at("checkpoints"), to_checkpoint);
-  run.errors = errors_from_json(json.at("errors"));
-  run.bias = bias_from_json(json.at("bias"));
-  run.image = json.at("image");
-  for (const auto& [name, value] : json.at("counters").items()) {
-    run.counters[name] = number_from_json(value);
-  }
-  run.notes = json.at("notes");
-  run.command = json.at("command");
-  return run;
+void fields(auto& archive, Of<Results> auto& results) {
+  archive("created", results.created);
+  archive("command", results.command);
+  archive("program", results.program);
+  archive("commit", results.commit);
+  archive("compiler", results.compiler);
+  archive("flags", results.flags);
+  archive("machine", results.machine);
+  archive("threads", results.threads);
+  archive("time_limit", results.time_limit);
+  archive("epsilon", results.epsilon);
+  archive("scenes", results.scenes);
 }
 
-Json from_method(const Method& method) {
-  return {{"name", method.name},
-          {"integrator", method.integrator},
-          {"options", method.options},
-          {"runs", array_of(method.runs, from_run)}};
-}
-
-Method to_method(const Json& json) {
-  Method method{json.at("name"), json.at("integrator"), {}, {}};
-  json.at("options").get_to(method.options);
-  method.runs = items_of(json.at("runs"), to_run);
-  return method;
-}
-
-Json from_scene(const SceneResults& scene) {
-  return {{"name", scene.name},
-          {"path", scene.path},
-          {"hash", scene.hash},
-          {"width", scene.width},
-          {"height", scene.height},
-          {"reference", scene.reference},
-          {"reference_samples_per_pixel", scene.reference_samples_per_pixel},
-          {"reference_rel_mse",
-           scene.reference_rel_mse ? Json(*scene.reference_rel_mse) : Json()},
-          {"methods", array_of(scene.methods, from_method)}};
-}
-
-SceneResults to_scene(const Json& json) {
-  SceneResults scene;
-  scene.name = json.at("name");
-  scene.path = json.at("path");
-  scene.hash = json.at("hash");
-  scene.width = json.at("width");
-  scene.height = json.at("height");
-  scene.reference = json.at("reference");
-  scene.reference_samples_per_pixel = json.at("reference_samples_per_pixel");
-  const Json& own_error = json.at("reference_rel_mse");
-  if (!own_error.is_null()) scene.reference_rel_mse = own_error.get<double>();
-  scene.methods = items_of(json.at("methods"), to_method);
-  return scene;
-}
+namespace {
 
 void check_format(const Json& json) {
-  if (!json.is_object() || json.value("format", "") != format_name) {
-    throw std::runtime_error(
-        "not a file of results: \"format\" is not \"tyndall-results\"");
+  if (!json.is_object() || json.value("format", Json()) != format_name) {
+    throw std::runtime_error("\"format\" is not \"tyndall-results\"");
   }
-  if (json.at("version") != format_version) {
-    throw std::runtime_error(
-        fmt::format("results of version {}; this program reads version {}",
-                    json.at("version").dump(), format_version));
+  int version = 0;
+  JsonReader{json, ""}("version", version);
+  if (version != format_version) {
+    throw std::runtime_error(fmt::format("it has version {}, this program reads version {}",
+                                         version, format_version));
   }
+}
+
+/// What a parser has to say, without the number of its kind.
+std::string parse_message(const Json::exception& error) {
+  const std::string text = error.what();
+  const size_t end = text.find("] ");
+  return end == std::string::npos ? text : text.substr(end + 2);
 }
 
 }  // namespace
 
 std::string to_json(const Results& results) {
-  const Machine& machine = results.machine;
-  const Json json = {{"format", format_name},
-                     {"version", format_version},
-                     {"created", results.created},
-                     {"command", results.command},
-                     {"program", results.program},
-                     {"commit", results.commit},
-                     {"compiler", results.compiler},
-                     {"flags", results.flags},
-                     {"machine",
-                      {{"cpu", machine.cpu},
-                       {"system", machine.system},
-                       {"cores", machine.cores},
-                       {"memory_bytes", machine.memory_bytes}}},
-                     {"threads", results.threads},
-                     {"time_limit", results.time_limit},
-                     {"epsilon", results.epsilon},
-                     {"scenes", array_of(results.scenes, from_scene)}};
+  Json json = write_json(results);
+  json["format"] = format_name;
+  json["version"] = format_version;
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -167,22 +120,12 @@ Results results_from_json(const std::string& text) {
     const Json json = Json::parse(text);
     check_format(json);
     Results results;
-    results.created = json.at("created");
-    results.command = json.at("command");
-    results.program = json.at("program");
-    results.commit = json.at("commit");
-    results.compiler = json.at("compiler");
-    results.flags = json.at("flags");
-    const Json& machine = json.at("machine");
-    results.machine = {machine.at("cpu"), machine.at("system"), machine.at("cores"),
-                       machine.at("memory_bytes")};
-    results.threads = json.at("threads");
-    results.time_limit = json.at("time_limit");
-    results.epsilon = json.at("epsilon");
-    results.scenes = items_of(json.at("scenes"), to_scene);
+    read_json(json, "", results);
     return results;
   } catch (const Json::exception& error) {
-    throw std::runtime_error(fmt::format("not a file of results: {}", error.what()));
+    throw std::runtime_error("not a file of results: " + parse_message(error));
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(std::string("not a file of results: ") + error.what());
   }
 }
 

@@ -59,6 +59,10 @@ std::string mean_of(const Method& method, double (*value)(const Run&)) {
   return std::isnan(mean) ? "-" : short_number(mean);
 }
 
+std::string fixed_mean(const Method& method, double (*value)(const Run&)) {
+  return fmt::format("{:.2f}", spread_over_runs(method.runs, value).mean);
+}
+
 std::string mean_and_deviation(const Method& method, double (*value)(const Run&)) {
   const Spread s = spread_over_runs(method.runs, value);
   if (method.runs.size() < 2) return short_number(s.mean);
@@ -115,7 +119,7 @@ Row cost_row(const Method& method, const Method& baseline, double samples) {
           fmt::format("{}", method.runs.size()),
           mean_of(method, [](const Run& r) { return double{1} * r.samples_per_pixel; }),
           mean_of(method, [](const Run& r) { return r.seconds; }),
-          mean_of(method, [](const Run& r) { return r.training_seconds; }),
+          fixed_mean(method, [](const Run& r) { return r.training_seconds; }),
           mean_of(method, [](const Run& r) { return 1e-6 * double(r.paths) / r.seconds; }),
           ratio_text(cost_ratio(method.runs, baseline.runs, cost_in_time)),
           ratio_text(cost_ratio(method.runs, baseline.runs, trimmed_cost_in_time)),
@@ -219,8 +223,8 @@ std::string method_table_html(const SceneResults& scene) {
                      "HDR-FLIP", "99.9 %", "biased runs"},
                     errors, methods) +
          table_html({"method", "runs", "samples/pixel", "seconds", "of them learning",
-                     "million paths/s", "times less time", "trimmed", "times fewer samples",
-                     fmt::format("relMSE at {:g} samples/pixel", samples)},
+                     "Mpaths/s", "times less time", "trimmed", "times fewer samples",
+                     fmt::format("relMSE at {:g} spp", samples)},
                     costs, methods);
 }
 
@@ -249,8 +253,8 @@ std::string diagnostics_html(const SceneResults& scene) {
   }
   std::vector<Row> rows = {{"learning, % of the time"}};
   for (const Method& method : scene.methods) {
-    rows.back().push_back(
-        mean_of(method, [](const Run& r) { return 100 * r.training_seconds / r.seconds; }));
+    rows.back().push_back(fixed_mean(
+        method, [](const Run& r) { return 100 * r.training_seconds / r.seconds; }));
   }
   for (const std::string& name : names) {
     rows.push_back({name});
