@@ -91,9 +91,8 @@ void declare_output(Command& command, RenderArguments& a) {
   const std::string group = "Output";
   command
       .option("-o,--output,--outfile", &a.outputs,
-              "where the image goes: .exr (linear, all layers), .png (8 bit sRGB) or .pfm; "
-              "may be "
-              "repeated; without it the name in the scene file",
+              "where the image goes: .exr (linear, all layers), .png (8 bit sRGB), .pfm or "
+              ".hdr; may be repeated; without it the name in the scene file",
               {.value = "FILE", .group = group})
       .flag("--half", &a.half, "EXR: 16-bit channels; depth and sample counts stay 32-bit",
             group)

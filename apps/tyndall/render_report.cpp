@@ -28,6 +28,13 @@ Rgb standard_error(const Image& image, int x, int y) {
   return {std::sqrt(variance.r), std::sqrt(variance.g), std::sqrt(variance.b)};
 }
 
+/// "1.23 million", "45.1 thousand", "35".
+std::string in_words(double count) {
+  if (count >= 1e6) return fmt::format("{:.3g} million", count * 1e-6);
+  if (count >= 1e3) return fmt::format("{:.3g} thousand", count * 1e-3);
+  return fmt::format("{:.0f}", count);
+}
+
 }  // namespace
 
 int64_t peak_memory() {
@@ -40,9 +47,9 @@ std::string summary(const RenderReport& report) {
   const RenderStatistics& s = report.statistics;
   const Vec2i size = report.settings.resolution;
   std::string text = fmt::format(
-      "{}x{}, {} spp, {} with {} threads, {:.3g} million paths/s, {:.0f} MB\n", size.x,
-      size.y, s.samples_per_pixel, format_seconds(s.seconds), s.threads,
-      per_second(s.paths, s.seconds) * 1e-6, static_cast<double>(peak_memory()) / 1e6);
+      "{}x{}, {} spp, {} with {} threads, {} paths/s, {:.0f} MB\n", size.x, size.y,
+      s.samples_per_pixel, format_seconds(s.seconds), s.threads,
+      in_words(per_second(s.paths, s.seconds)), static_cast<double>(peak_memory()) / 1e6);
   if (s.rejected.total() > 0)
     text += fmt::format(
         "warning: {} samples rejected: {} not a number, {} infinite, {} negative\n",
