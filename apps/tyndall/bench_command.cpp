@@ -97,11 +97,6 @@ class Bench {
   size_t count_ = 0;
 };
 
-std::string ratio_text(const Method& method, const Method& baseline, RunCost cost) {
-  const auto ratio = cost_ratio(method.runs, baseline.runs, cost);
-  return ratio ? ratio->text() : "-";
-}
-
 std::vector<std::string> summary_row(const Method& method, const Method& baseline) {
   const auto mean = [&](double (*value)(const Run&)) {
     return short_number(spread_over_runs(method.runs, value).mean);

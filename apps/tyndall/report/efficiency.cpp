@@ -91,6 +91,12 @@ std::optional<RatioEstimate> cost_ratio(const std::vector<Run>& method,
       ConfidenceInterval{std::exp(difference - half), std::exp(difference + half)}};
 }
 
+std::string ratio_text(const Method& method, const Method& baseline, RunCost cost) {
+  if (&method == &baseline) return "1";
+  const auto ratio = cost_ratio(method.runs, baseline.runs, cost);
+  return ratio ? ratio->text() : "-";
+}
+
 bool is_reference_noisy(const SceneResults& scene) {
   double smallest = std::numeric_limits<double>::infinity();
   for (const Method& method : scene.methods) {

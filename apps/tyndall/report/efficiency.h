@@ -39,6 +39,9 @@ double trimmed_cost_in_time(const Run& run);
 std::optional<RatioEstimate> cost_ratio(const std::vector<Run>& method,
                                         const std::vector<Run>& baseline, RunCost cost);
 
+/// cost_ratio() as text: "1" for the baseline itself, "-" where there is none.
+std::string ratio_text(const Method& method, const Method& baseline, RunCost cost);
+
 /// Whether the reference's own noise is more than a tenth of the smallest error measured
 /// with it, so that true ratios are further from one than the measured ones.
 bool is_reference_noisy(const SceneResults& scene);

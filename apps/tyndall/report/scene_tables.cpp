@@ -69,10 +69,6 @@ std::string mean_and_deviation(const Method& method, double (*value)(const Run&)
   return fmt::format("{:.4g} ± {:.2g}", s.mean, s.deviation);
 }
 
-std::string ratio_text(const std::optional<RatioEstimate>& r) {
-  return r ? r->text() : "-";
-}
-
 /// "bias" of all runs: how many of them differ from the reference at 5 % for their tiles
 /// together.
 std::string bias_text(const Method& method) {
@@ -121,9 +117,9 @@ Row cost_row(const Method& method, const Method& baseline, double samples) {
           mean_of(method, [](const Run& r) { return r.seconds; }),
           fixed_mean(method, [](const Run& r) { return r.training_seconds; }),
           mean_of(method, [](const Run& r) { return 1e-6 * double(r.paths) / r.seconds; }),
-          ratio_text(cost_ratio(method.runs, baseline.runs, cost_in_time)),
-          ratio_text(cost_ratio(method.runs, baseline.runs, trimmed_cost_in_time)),
-          ratio_text(cost_ratio(method.runs, baseline.runs, cost_in_samples)),
+          ratio_text(method, baseline, cost_in_time),
+          ratio_text(method, baseline, trimmed_cost_in_time),
+          ratio_text(method, baseline, cost_in_samples),
           error_at_text(method, samples)};
 }
 
@@ -222,8 +218,8 @@ std::string method_table_html(const SceneResults& scene) {
   return table_html({"method", "relMSE", "trimmed", "MSE", "SMAPE", "PSNR [dB]", "FLIP",
                      "HDR-FLIP", "99.9 %", "biased runs"},
                     errors, methods) +
-         table_html({"method", "runs", "samples/pixel", "seconds", "of them learning",
-                     "Mpaths/s", "times less time", "trimmed", "times fewer samples",
+         table_html({"method", "runs", "spp", "seconds", "of them learning", "Mpaths/s",
+                     "times less time", "trimmed", "times fewer samples",
                      fmt::format("relMSE at {:g} spp", samples)},
                     costs, methods);
 }
