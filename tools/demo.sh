@@ -16,6 +16,11 @@ name=$(basename "$scene" .pbrt)
 pair=$out/pair
 look=(--tone filmic)
 
+# The seconds that a method took, from bench's table; a pass that has begun is finished.
+taken() {
+  awk -v method="$1" '$1 == method { print $5; exit }' "$out/bench.txt"
+}
+
 mkdir -p "$out"
 rm -rf "$pair"
 
@@ -40,5 +45,5 @@ echo
 head -n -1 "$out/bench.txt"
 echo
 printf '%-20s %s\n' "$out/demo.png" "the picture; all its layers are in $out/demo.exr" \
-  "$out/pair.png" "$seconds s of each: left volpath, right learned" \
+  "$out/pair.png" "left volpath, $(taken volpath) s; right learned, $(taken learned) s" \
   "$out/report.html" "the report: open it in a browser"

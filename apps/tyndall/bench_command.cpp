@@ -124,10 +124,9 @@ std::string summary(const Results& results) {
     std::string sentences;
     for (const Method& method : scene.methods) {
       rows.push_back(summary_row(method, baseline));
-      const auto time = cost_ratio(method.runs, baseline.runs, cost_in_time);
-      if (&method == &baseline || !time) continue;
-      sentences += fmt::format("{}: the same error as {} in {}\n", method.name,
-                               baseline.name, time->time_words());
+      const std::string sentence = time_sentence(method, baseline);
+      if (&method == &baseline || sentence.empty()) continue;
+      sentences += fmt::format("{}: {}\n", method.name, sentence);
     }
     text += text_table(rows) + "\n" + sentences;
     if (!sentences.empty() && is_reference_noisy(scene)) {

@@ -47,6 +47,16 @@ TEST(EfficiencyTest, IsEmptyWhereThereIsNoRatio) {
   EXPECT_FALSE(without_interval->interval);
 }
 
+TEST(EfficiencyTest, SaysWhatTimeIsSaved) {
+  const Method slow{"slow", "volpath", {}, {run_of(0.4, 10)}};
+  Method fast{"fast", "learned", {}, {run_of(0.1, 10)}};
+  EXPECT_EQ(time_sentence(fast, slow),
+            "the same error as slow in 4 times less time; without the worst 0.1 % of the "
+            "pixels in 4 times less time");
+  fast.runs[0].errors.rel_mse_trimmed = 0;
+  EXPECT_EQ(time_sentence(fast, slow), "");
+}
+
 TEST(EfficiencyTest, RatiosAsWords) {
   EXPECT_EQ((RatioEstimate{2.5, {}}).text(), "2.5");
   EXPECT_EQ((RatioEstimate{2.5, {{2, 3.1}}}).text(), "2.5 (2 to 3.1)");

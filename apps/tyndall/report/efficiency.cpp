@@ -97,6 +97,15 @@ std::string ratio_text(const Method& method, const Method& baseline, RunCost cos
   return ratio ? ratio->text() : "-";
 }
 
+std::string time_sentence(const Method& method, const Method& baseline) {
+  const auto all = cost_ratio(method.runs, baseline.runs, cost_in_time);
+  const auto trimmed = cost_ratio(method.runs, baseline.runs, trimmed_cost_in_time);
+  if (!all || !trimmed) return "";
+  return fmt::format(
+      "the same error as {} in {}; without the worst 0.1 % of the pixels in {}",
+      baseline.name, all->time_words(), trimmed->time_words());
+}
+
 bool is_reference_noisy(const SceneResults& scene) {
   double smallest = std::numeric_limits<double>::infinity();
   for (const Method& method : scene.methods) {

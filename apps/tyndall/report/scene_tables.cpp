@@ -184,12 +184,10 @@ std::string summary_html(const SceneResults& scene) {
   std::string html;
   for (size_t i = 1; i < scene.methods.size(); ++i) {
     const Method& method = scene.methods[i];
-    const Method& baseline = scene.methods.front();
-    const auto time = cost_ratio(method.runs, baseline.runs, cost_in_time);
-    if (!time) continue;
-    html += fmt::format("<p><strong>{}</strong>: the same error as {} in {}.</p>\n",
-                        escape_html(method.name), escape_html(baseline.name),
-                        time->time_words());
+    const std::string sentence = time_sentence(method, scene.methods.front());
+    if (sentence.empty()) continue;
+    html += fmt::format("<p><strong>{}</strong>: {}.</p>\n", escape_html(method.name),
+                        escape_html(sentence));
   }
   return html + reference_html(scene);
 }
