@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """`tyndall report`: messages, the page without scripts, and the page in headless Chromium."""
 
+import base64
 import html.parser
 import json
 import os
@@ -93,6 +94,15 @@ class PageTest(ReportTest):
             self.assertEqual(root.tag, "{http://www.w3.org/2000/svg}svg")
             lines = root.findall(".//{http://www.w3.org/2000/svg}polyline")
             self.assertEqual(len(lines), len(METHODS))
+
+    def test_shows_pictures_of_inspect(self):
+        data = b"\x89PNG as it is"
+        (self.folder / "fog & <lamp>-inspect-64,32.png").write_bytes(data)
+        (self.folder / "other-inspect.png").write_bytes(b"other")
+        page = self.page()
+        self.assertIn("base64," + base64.b64encode(data).decode(), page)
+        self.assertIn("fog &amp; &lt;lamp&gt;-inspect-64,32.png</figcaption>", page)
+        self.assertNotIn(base64.b64encode(b"other").decode(), page)
 
     def test_needs_no_network(self):
         page = self.page()

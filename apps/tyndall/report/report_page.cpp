@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <stdexcept>
 
 #include "apps/tyndall/report/error_curve.h"
@@ -14,6 +16,7 @@
 #include "apps/tyndall/text_table.h"
 #include "tyndall/image/codec.h"
 #include "tyndall/image/metrics.h"
+#include "tyndall/image/whole_file.h"
 
 namespace tyndall::app {
 
@@ -34,7 +37,7 @@ double mean_finite(const std::vector<float>& values) {
 struct PageScene {
   const SceneResults* scene;
   const Results* results;
-  std::string link_folder;
+  std::string folder, link_folder;  ///< of the results
   ScenePictures pictures;
 };
 
@@ -81,6 +84,27 @@ std::string insets_html(const ScenePictures& pictures, double epsilon) {
                     pictures.exposure);
 }
 
+/// The pictures that `tyndall inspect` drew of the scene, by their names.
+std::string inspection_html(const PageScene& page) {
+  const std::filesystem::path folder = page.folder.empty() ? "." : page.folder;
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with(page.scene->name + "-inspect") && name.ends_with(".png")) {
+      files.push_back(entry.path());
+    }
+  }
+  std::sort(files.begin(), files.end());
+  std::string html;
+  for (const auto& file : files) {
+    html += fmt::format(
+        "<figure class=\"inspected\"><img alt=\"{0}\" src=\"{1}\"><figcaption "
+        "class=\"quiet\">{0}</figcaption></figure>\n",
+        escape_html(file.filename().string()), png_url(read_whole_file(file.string())));
+  }
+  return html;
+}
+
 std::string scene_html(const PageScene& page, int number) {
   const SceneResults& scene = *page.scene;
   std::string html = fmt::format("<section id=\"scene-{0}\">\n<h2>{1}</h2>\n", number,
@@ -111,7 +135,7 @@ std::string scene_html(const PageScene& page, int number) {
       page.results->epsilon, escape_html(scene.methods.front().name));
   html += "<details><summary>All runs</summary>\n" +
           run_table_html(scene, page.link_folder) + "</details>\n";
-  html += "<h3>Diagnostics</h3>\n" + diagnostics_html(scene);
+  html += "<h3>Diagnostics</h3>\n" + diagnostics_html(scene) + inspection_html(page);
   html += "<h3>The same images again</h3>\n" + commands_html(scene);
   return html + "</section>\n";
 }
@@ -186,8 +210,8 @@ std::string report_page(const std::vector<ReportInput>& inputs) {
   for (const ReportInput& input : inputs) {
     machines += machine_html(input.results);
     for (const SceneResults& scene : input.results.scenes) {
-      scenes.push_back(
-          {&scene, &input.results, input.link_folder, read_pictures(scene, input.folder)});
+      scenes.push_back({&scene, &input.results, input.folder, input.link_folder,
+                        read_pictures(scene, input.folder)});
     }
   }
   std::string text = head_html(page_title(scenes)) + navigation_html(scenes);
