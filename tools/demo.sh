@@ -16,7 +16,7 @@ name=$(basename "$scene" .pbrt)
 pair=$out/pair
 look=(--tone filmic)
 
-# The seconds that a method took, from bench's table; a pass that has begun is finished.
+# The seconds that a method took, from bench's table: whole passes.
 taken() {
   awk -v method="$1" '$1 == method { print $5; exit }' "$out/bench.txt"
 }

@@ -69,7 +69,7 @@ class ResultsTest(BenchTest):
                 self.assertEqual(samples[-1], run["samples_per_pixel"])
                 self.assertEqual(points[-1]["rel_mse"], run["errors"]["rel_mse"])
                 self.assertEqual(seconds[-1], run["seconds"])
-                self.assertGreaterEqual(run["seconds"], 0.05)
+                self.assertGreaterEqual(run["seconds"], 0.025)  # half a pass may be missing
 
     def test_command_renders_the_same_image(self):
         self.bench(*QUICK, "--size", "12x6")

@@ -37,7 +37,10 @@ class CheckpointRecorder {
 
   void on_pass(const Film& film, uint32_t samples) {
     clock_.pause();
-    const bool is_over = clock_.seconds() >= options_.time_limit;
+    const double last_pass = clock_.seconds() - pass_end_;
+    pass_end_ = clock_.seconds();
+    // A pass later the end would be further from the limit.
+    const bool is_over = clock_.seconds() + 0.5 * last_pass >= options_.time_limit;
     if (clock_.seconds() >= next_ && !is_over) {
       record(measure_errors(film.develop(), reference_, metrics_), samples);
       next_ = interval_growth * clock_.seconds();
@@ -63,7 +66,7 @@ class CheckpointRecorder {
   MetricOptions metrics_;
   RunClock clock_;
   std::atomic<bool> stop_ = false;
-  double next_ = 0;
+  double next_ = 0, pass_end_ = 0;
   std::vector<Checkpoint> checkpoints_;
 };
 

@@ -11,7 +11,7 @@ namespace tyndall::app {
 
 /// How a run is measured.
 struct RunOptions {
-  double time_limit = 30;  ///< [s] of rendering; the pass in hand is finished
+  double time_limit = 30;  ///< [s] of rendering; ends after the pass nearest to it
   int threads = 0;
   MetricOptions metrics;
   const std::atomic<bool>* stop = nullptr;
@@ -24,7 +24,7 @@ struct MeasuredRun {
   Image image;
 };
 
-/// Renders until the time is over, with checkpoints at growing intervals; the clock stands
+/// Renders until the time is over, to half a pass, with checkpoints at growing intervals; the clock stands
 /// still while they are measured. Empty if `stop` became true.
 std::optional<MeasuredRun> measure_run(const Scene& scene, const RenderSettings& settings,
                                        const Image& reference, const RunOptions& options);
