@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "tyndall/guiding/gaussian_mixture.h"
+#include "tyndall/guiding/guide_lobes.h"
 #include "tyndall/guiding/learned_shares.h"
 #include "tyndall/guiding/light_square.h"
 
@@ -25,6 +26,7 @@ struct GuidedDirection {
 /// uniform one, for lights at infinity).
 struct DirectionGuide {
   GaussianMixture mixture;
+  GuideLobes lobes;  ///< of the mixture
   Frame reference = Frame::from_z({0, 0, 1});
   SquareMeasure measure = SquareMeasure::joint_sampling;
   DirectionShares shares{0.4f, 0.4f, 0.2f};
@@ -33,6 +35,17 @@ struct DirectionGuide {
   /// of the light. Make it once and ask it often.
   LightSquare square(Vec3 light_direction) const {
     return {turned_frame(reference, light_direction), measure};
+  }
+  void set_mixture(const GaussianMixture& m) {
+    mixture = m;
+    lobes = GuideLobes::of(m, measure);
+  }
+  /// The mixture times the phase function of mean cosine g of a vertex that was reached in
+  /// the unit direction `w_ab`, as far as changing the weights of the components can make
+  /// it.
+  GaussianMixture product(const LightSquare& square, Vec3 w_ab, float g) const {
+    if (g == 0 || mixture.is_uniform()) return mixture;
+    return mixture.reweighted(lobes.phase_factors(square.frame().to_local(w_ab), g));
   }
   /// Draws a direction from the mixture alone; empty where it leaves the square.
   std::optional<GuidedDirection> sample(const LightSquare& square, Vec2 u) const {

@@ -96,6 +96,20 @@ std::optional<MixtureSample> GaussianMixture::sample(Vec2 u) const {
   return MixtureSample{.p = p, .pdf = pdf(p)};
 }
 
+GaussianMixture GaussianMixture::reweighted(const Lanes& factors) const {
+  Lanes products;
+  for (size_t i = 0; i < capacity; ++i) products[i] = weight_[i] * factors[i];
+  const float total = sum(products);
+  if (!(total > 0 && total < infinity)) return *this;
+  GaussianMixture result = *this;
+  const float scale = 1 / total;
+  for (size_t i = 0; i < capacity; ++i) {
+    result.weight_[i] = products[i] * scale;
+    result.peak_[i] *= factors[i] * scale;
+  }
+  return result;
+}
+
 float GaussianMixture::inside_mass() const {
   if (is_uniform()) return 1;
   double mass = 0;

@@ -63,6 +63,9 @@ class GaussianMixture {
   /// returns the sum: pdf(p), if there are components.
   float eval_components(Vec2 p, Lanes& densities) const;
 
+  /// The mixture with each weight times a positive factor, and scaled to sum to one again.
+  GaussianMixture reweighted(const Lanes& factors) const;
+
   /// The probability that sample() is not empty, to about 1e-4. Costs some microseconds.
   float inside_mass() const;
   /// exp of the entropy of the weights: between 1 and size(); zero if uniform.

@@ -39,6 +39,8 @@ bool RecordCache::is_usable(const TrainingSample& s) const {
   const auto is_unit = [](Vec3 w) { return std::abs(length_squared(w) - 1) < 1e-3f; };
   return s.weight >= 0 && s.weight < infinity && is_finite(s.p) && is_unit(s.wi) &&
          is_unit(s.light_direction) && s.phase_pdf >= 0 && s.phase_pdf < infinity &&
+         s.mixture_pdf >= 0 && s.mixture_pdf < infinity && s.joint_pdf >= 0 &&
+         s.joint_pdf < infinity && s.scattered >= 0 && s.scattered < infinity &&
          s.sigma_t >= 0 && s.sigma_t < infinity && s.pdf > 0 && s.pdf < infinity &&
          s.light_distance > 0 && s.cluster < clusters_.size();
 }

@@ -66,15 +66,18 @@ void GuideTraining::train(std::span<const TrainingSample* const> samples,
   for (const TrainingSample* s : samples) {
     const SquarePoint q = guide.square(s->light_direction).point(s->wi);
     points.push_back({q.p, s->weight});
-    const DirectionShares densities{guide.mixture.pdf(q.p) * q.density, q.density,
-                                    s->phase_pdf};
-    statistics.add(s->weight, s->pdf, densities, guide.shares, settings.shares.target);
+    const DirectionShares densities{
+        s->mixture_pdf > 0 ? s->mixture_pdf : guide.mixture.pdf(q.p) * q.density,
+        s->joint_pdf > 0 ? s->joint_pdf : q.density, s->phase_pdf};
+    statistics.add(s->weight * s->scattered, s->pdf, densities, guide.shares,
+                   settings.shares.target);
   }
-  guide.shares = statistics.improve(guide.shares, settings.shares);
-  if (guide.mixture.is_uniform())
+  if (guide.mixture.is_uniform()) {  // it was not drawn from: its share says nothing
     start_mixture(points, samples.front()->key, settings);
-  else
+  } else {
+    guide.shares = statistics.improve(guide.shares, settings.shares);
     continue_mixture(points, settings);
+  }
 }
 
 void GuideTraining::start_mixture(std::span<const WeightedPoint> points, uint64_t seed,
@@ -91,7 +94,7 @@ void GuideTraining::start_mixture(std::span<const WeightedPoint> points, uint64_
     return;
   }
   const GaussianMixture start = initial_mixture(lit, seed, settings.em);
-  guide.mixture = fit_batch(start, lit, settings.em);
+  guide.set_mixture(fit_batch(start, lit, settings.em));
   MixtureStatistics batch;
   batch.add(guide.mixture, lit);
   em = OnlineEm();
@@ -108,6 +111,7 @@ void GuideTraining::continue_mixture(std::span<const WeightedPoint> points,
     em.absorb(batch, settings.em);
     guide.mixture = em.maximize(guide.mixture, settings.em);
   }
+  guide.set_mixture(guide.mixture);
 }
 
 void GuideTraining::write(ByteWriter& out) const {
@@ -131,7 +135,9 @@ void GuideTraining::read(ByteReader& in) {
   for (Vec3* axis : {&guide.reference.x, &guide.reference.y, &guide.reference.z})
     in.read(*axis);
   for (float& share : guide.shares) in.read(share);
-  guide.mixture.read(in);
+  GaussianMixture mixture;
+  mixture.read(in);
+  guide.set_mixture(mixture);
   em.read(in);
   const auto size = in.read_as<uint32_t>();
   if (size > max_pending) return in.fail();

@@ -23,7 +23,13 @@ struct TrainingSample {
   /// choosing it.
   float weight = 0;
   float pdf = 0;                      ///< density that wi was drawn with [1/sr]
-  float phase_pdf = 0;                ///< density of wi by phase sampling at p [1/sr]
+  float phase_pdf = 0;  ///< density of wi by phase sampling at p [1/sr]
+  /// Densities of wi by the record's mixture and by joint sampling, as the render uses them
+  /// [1/sr]; zero: those of the guide without regard to the phase function at p.
+  float mixture_pdf = 0, joint_pdf = 0;
+  /// The share of the light that is scattered on: the phase function at p, up to a factor
+  /// that is the same for all samples. Shares are learned for the product.
+  float scattered = 1;
   float light_distance = infinity;    ///< infinity for lights at infinity
   float scatter_distance = infinity;  ///< to the next vertex along wi; infinity if none
   float occluder_distance =

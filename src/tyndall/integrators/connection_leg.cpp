@@ -25,6 +25,7 @@ ConnectionContext::ConnectionContext(const Scene& scene, const ConnectionSetting
     visibility_ =
         std::make_unique<const LightVisibility>(scene, visibility_bytes, visibility_floor);
   if (settings.lit_surfaces > 0) lit_.emplace(scene, settings.lit_surfaces);
+  if (settings.direction) guiding_ = std::make_unique<DirectionGuiding>(scene, settings);
   std::map<float, std::shared_ptr<const ScatteringTables>> by_g;
   for (const Medium& medium : scene.description().media) {
     const float g = medium.phase().mean_cosine();

@@ -5,6 +5,8 @@
 #include <memory>
 #include <optional>
 
+#include "tyndall/integrators/connection_settings.h"
+#include "tyndall/integrators/direction_guiding.h"
 #include "tyndall/integrators/leg_proxy.h"
 #include "tyndall/integrators/light_visibility.h"
 #include "tyndall/integrators/lit_surface.h"
@@ -15,19 +17,6 @@
 #include "tyndall/techniques/scattering_tables.h"
 
 namespace tyndall {
-
-/// Which connections the vertices of a walk make, beside next event estimation.
-struct ConnectionSettings {
-  bool single = false;  ///< through one further scattering vertex on the leg
-  bool dual = false;    ///< through two: one on the leg, one beyond
-  /// Legs along which the distance to the light varies by less than this factor are left to
-  /// next event estimation: there is nothing to gain.
-  float min_distance_ratio = 1.2f;
-  bool visibility = false;  ///< predict what the lights see, for distances
-  /// Connect to surfaces that lights shine on, by way of as many surfaces in all; zero: do
-  /// not.
-  int lit_surfaces = 0;
-};
 
 /// What all connections of a render share. Changes in update() only.
 class ConnectionContext {
@@ -43,6 +32,9 @@ class ConnectionContext {
   const LightVisibility* visibility() const { return visibility_.get(); }
   /// Null if lit surfaces are not connected to.
   const LitSurfaceSampling* lit_surfaces() const { return lit_ ? &*lit_ : nullptr; }
+  /// Null if directions are not learned.
+  const DirectionGuiding* guiding() const { return guiding_.get(); }
+  DirectionGuiding* guiding() { return guiding_.get(); }
 
   /// Learns from what connections found so far. Not while paths are traced.
   void update() {
@@ -55,6 +47,7 @@ class ConnectionContext {
   LightChoice light_choice_;
   std::unique_ptr<const LightVisibility> visibility_;
   std::optional<LitSurfaceSampling> lit_;
+  std::unique_ptr<DirectionGuiding> guiding_;
   std::map<const Medium*, std::shared_ptr<const ScatteringTables>> tables_;
 };
 

@@ -14,6 +14,12 @@ constexpr int roulette_free_depth = 1;
 // Ends of legs that are seen less clearly are left to chance.
 constexpr float least_end_transmittance = 0.01f;
 
+// A number of its own for a stream, which stays where it is.
+uint64_t key_of(RandomStream stream) {
+  const uint64_t high = stream.next_bits();
+  return high << 32 | stream.next_bits();
+}
+
 }  // namespace
 
 Path::Path(const Scene& scene, const PathRules& rules, const Ray& ray, Sampler& sampler)
@@ -21,6 +27,7 @@ Path::Path(const Scene& scene, const PathRules& rules, const Ray& ray, Sampler& 
       rules_(rules),
       sampler_(sampler),
       tracking_(sampler.fork()),
+      key_(key_of(tracking_)),
       ray_(ray),
       medium_(scene.camera_medium()),
       pivots_(scene, tracking_.next_bits()) {

@@ -13,6 +13,8 @@
 
 namespace tyndall {
 
+class DualDirection;
+
 /// What every path of a render shares.
 struct PathRules {
   int max_depth;
@@ -21,6 +23,7 @@ struct PathRules {
   bool walks_find_light;  ///< something that glows is not a Dirac delta
   const ConnectionContext* connections;  ///< null: next event estimation only
   const ConnectionBudget* budget;        ///< null: each connection once
+  bool sees_through = false;  ///< nothing hides a light from a connection: for training only
 };
 
 /// Rays between two points stop short of the second by this share of their length, lest
@@ -43,6 +46,8 @@ class Path {
   /// Connects vertices on the leg, beyond what the walk will choose, to lights: adds the
   /// light of paths with one and with two more scattering vertices in media.
   void connect(Leg& leg);
+  /// Makes a dual connection on the leg to teach the guiding; adds nothing.
+  void rehearse(Leg& leg);
   /// Adds the light of what the first leg ends at, as far as it is seen through media: the
   /// walk gets there by chance only.
   void look_at_end(Leg& leg);
@@ -90,8 +95,16 @@ class Path {
   bool counts(int in_media, int on_surfaces = 0) const;
   // What one connection finds, before spectral MIS.
   Rgb connect_single(Leg& leg);
+  void enter(Leg& leg);
   Rgb connect_dual(Leg& leg);
   Rgb connect_glow();  // from the vertex
+  struct DualStart;
+  struct ScatteredOnce;
+  ScatteredOnce connect_beyond(const DualStart& start, float u);
+  float dual_weight(const DualStart& start, ConnectionLeg& next, float t,
+                    const LightEnd& end);
+  void teach(const DualStart& start, const DualDirection& technique,
+             const ScatteredOnce& found);
   template <typename Connect>
   void spend(Effort effort, const Connect& connect);
 
@@ -118,6 +131,8 @@ class Path {
   const PathRules& rules_;
   Sampler& sampler_;
   RandomStream tracking_;
+  uint64_t key_;          // of the path
+  uint64_t lessons_ = 0;  // training samples so far
 
   Ray ray_;
   const Medium* medium_;

@@ -4,7 +4,6 @@
 
 #include "tyndall/integrators/path.h"
 #include "tyndall/sampling/mis.h"
-#include "tyndall/techniques/double_scattering_direction.h"
 
 namespace tyndall {
 std::optional<SelectedLight> Path::select_light(Vec3 p, float u) const {
@@ -32,7 +31,7 @@ Path::Connection Path::connect_to(const Vertex& vertex, const SelectedLight& sel
   if (is_black(f)) return connection;
   const Ray shadow = vertex.spawn(sample->wi);
   const float t_max = sample->distance * (1 - shadow_shortening);
-  if (scene_.is_occluded(shadow, t_max)) return connection;
+  if (!rules_.sees_through && scene_.is_occluded(shadow, t_max)) return connection;
   const Medium* medium = vertex.medium_towards(scene_, sample->wi);
   const Rgb T =
       transmittance(scene_, shadow, std::min(t_max, far_distance), medium, tracking_);
@@ -107,11 +106,16 @@ float Path::hit_weight(size_t light, float light_pdf, float distance) {
   return densities.weight(densities.hit);
 }
 
-void Path::connect(Leg& leg) {
-  if (!rules_.connections) return;
+// Remembers the legs that densities of connections need.
+void Path::enter(Leg& leg) {
   leg_two_before_ = std::move(leg_before_);
   leg_before_ = std::move(leg_);
   leg_ = ConnectionLeg(*rules_.connections, pivots_, leg);
+}
+
+void Path::connect(Leg& leg) {
+  if (!rules_.connections) return;
+  enter(leg);
   if (leg_.is_empty()) return;
   if (counts(1)) spend(Effort::single, [&] { return connect_single(leg); });
   if (counts(2) && rules_.connections->settings().dual)
@@ -151,43 +155,6 @@ Rgb Path::connect_single(Leg& leg) {
   return beta_ * value *
          (densities.weight(densities.single) /
           (s->pdf_t * selected->probability * connection.end.pdf));
-}
-
-Rgb Path::connect_dual(Leg& leg) {
-  const std::optional<SelectedLight> selected = leg_.select_light(sampler_.next_1d());
-  const float u_first = sampler_.next_1d(), u_last = sampler_.next_1d();
-  const Vec2 u_direction = sampler_.next_2d();
-  const ConnectionLeg::Double* dual = selected ? leg_.dual(selected->index) : nullptr;
-  if (!dual) return Rgb();
-  const std::optional<DistanceSample> first = dual->sample(u_first);
-  const Medium* medium = first ? leg_.proxy().medium_at(first->t) : nullptr;
-  if (!medium) return Rgb();
-  const Vertex x(leg.ray().at(first->t), -leg.ray().d, medium);
-  const DoubleScatteringDirection technique(rules_.connections->tables(*medium), x.p(),
-                                            leg.ray().d, *leg_.pivot(selected->index));
-  const std::optional<DoubleDirectionSample> direction = technique.sample(u_direction);
-  if (!direction) return Rgb();
-
-  Leg next(scene_, x.spawn(direction->w), medium);
-  ConnectionLeg next_leg(*rules_.connections, pivots_, next);
-  const ConnectionLeg::Single* single = next_leg.single(selected->index);
-  const std::optional<DistanceSample> second =
-      single ? single->sample(u_last) : std::optional<DistanceSample>();
-  const Medium* last_medium = second ? next_leg.proxy().medium_at(second->t) : nullptr;
-  if (!last_medium) return Rgb();
-  const Vertex y(next.ray().at(second->t), -direction->w, last_medium);
-  const Connection connection = connect_to(y, *selected);
-  if (is_black(connection.light)) return Rgb();
-
-  const LegStart start = start_of_leg(x, first->t, x.pdf(direction->w), false);
-  const TailDensities densities =
-      tail_densities(*rules_.connections, leg_, start, next_leg, second->t, connection.end);
-  const Rgb scattered = leg_transmittance(leg, first->t) * medium->at(x.p()).sigma_s *
-                        x.eval(direction->w) * leg_transmittance(next, second->t) *
-                        last_medium->at(y.p()).sigma_s;
-  const float pdf = first->pdf_t * direction->pdf * second->pdf_t * selected->probability *
-                    connection.end.pdf;
-  return beta_ * scattered * connection.light * (densities.weight(densities.dual) / pdf);
 }
 
 }  // namespace tyndall

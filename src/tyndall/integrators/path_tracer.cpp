@@ -9,6 +9,7 @@ namespace tyndall {
 namespace {
 
 constexpr uint32_t pilot_paths = 1024;
+constexpr uint32_t pretraining_paths = 4096;
 // The budget of connections is final from this sample of each pixel on.
 constexpr uint32_t last_update = 64;
 
@@ -21,6 +22,8 @@ bool can_be_hit(const Light& light) {
 PathTracer::PathTracer(const Scene& scene, const RenderSettings& settings,
                        const ConnectionSettings& connections)
     : scene_(scene),
+      seed_(settings.seed),
+      resolution_(settings.resolution),
       rules_{
           .max_depth = settings.max_depth,
           .orders = settings.orders,
@@ -35,32 +38,62 @@ PathTracer::PathTracer(const Scene& scene, const RenderSettings& settings,
   // Without finite lights there is nothing to connect to.
   if (!connections_->light_choice().has_finite_lights()) return;
   rules_.connections = &*connections_;
-  budget_.emplace(pilot_radiance(settings));
+  budget_.emplace(pilot_radiance());
   rules_.budget = &*budget_;
 }
 
-// The mean luminance of a few paths through all of the picture.
-float PathTracer::pilot_radiance(const RenderSettings& settings) const {
-  double sum = 0;
-  for (uint32_t i = 0; i < pilot_paths; ++i) {
-    Sampler sampler(SamplerKind::sobol, settings.seed, {-1, -1}, i);
+// Camera rays through all of the picture, apart from those of the pixels.
+template <typename Trace>
+void PathTracer::for_pilot_rays(uint32_t count, const Trace& trace) const {
+  for (uint32_t i = 0; i < count; ++i) {
+    Sampler sampler(SamplerKind::sobol, seed_, {-1, -1}, i);
     const Vec2 u = sampler.next_2d();
-    const Vec2 p_film{u.x * static_cast<float>(settings.resolution.x),
-                      u.y * static_cast<float>(settings.resolution.y)};
-    const float found = luminance(Li(scene_.camera().ray(p_film, {0.5f, 0.5f}), sampler).L);
-    if (std::isfinite(found)) sum += double{found};
+    const Vec2 p_film{u.x * static_cast<float>(resolution_.x),
+                      u.y * static_cast<float>(resolution_.y)};
+    trace(scene_.camera().ray(p_film, {0.5f, 0.5f}), sampler);
   }
+}
+
+// The mean luminance of a few paths.
+float PathTracer::pilot_radiance() const {
+  double sum = 0;
+  for_pilot_rays(pilot_paths, [&](const Ray& ray, Sampler& sampler) {
+    const float found = luminance(Li(ray, sampler).L);
+    if (std::isfinite(found)) sum += double{found};
+  });
   return static_cast<float>(sum / pilot_paths);
+}
+
+// The first stage of [Zhou16]: samples of joint sampling as if nothing hid the lights.
+void PathTracer::pretrain(DirectionGuiding& guiding) const {
+  PathRules rules = rules_;
+  rules.budget = nullptr;
+  rules.sees_through = true;
+  guiding.start_pretraining();
+  for_pilot_rays(pretraining_paths, [&](const Ray& ray, Sampler& sampler) {
+    Path path(scene_, rules, ray, sampler);
+    do {
+      Leg leg(scene_, path.ray(), path.medium());
+      path.rehearse(leg);
+      if (!path.advance(leg)) break;
+    } while (path.scatter());
+  });
+  guiding.finish_pretraining();
 }
 
 uint32_t PathTracer::prepare(uint32_t first) {
   if (!budget_) return unlimited;
-  if (first > 0) {
+  if (first > 0 && first <= last_update) {
     budget_->update();
     connections_->update();
   }
-  if (first >= last_update) return unlimited;
-  return first == 0 ? 1 : first * 4;
+  uint32_t next = unlimited;
+  if (first < last_update) next = first == 0 ? 1 : first * 4;
+  if (DirectionGuiding* guiding = connections_->guiding()) {
+    if (first == 0 && connections_->settings().pretraining) pretrain(*guiding);
+    next = std::min(next, guiding->prepare(first));
+  }
+  return next;
 }
 
 void PathTracer::report(RenderStatistics& statistics) const {
@@ -70,6 +103,8 @@ void PathTracer::report(RenderStatistics& statistics) const {
   if (connections_->lit_surfaces())
     statistics.counters["connections.lit"] =
         double{budget_->count(Effort::lit_from_leg, 0)};
+  if (const DirectionGuiding* guiding = connections_->guiding())
+    guiding->report(statistics);
 }
 
 PathSample PathTracer::Li(const Ray& ray, Sampler& sampler) const {

@@ -20,8 +20,13 @@ class PathTracer : public Integrator {
 
  private:
   const Scene& scene_;
-  float pilot_radiance(const RenderSettings& settings) const;
+  template <typename Trace>
+  void for_pilot_rays(uint32_t count, const Trace& trace) const;
+  float pilot_radiance() const;
+  void pretrain(DirectionGuiding& guiding) const;
 
+  uint64_t seed_;
+  Vec2i resolution_;
   std::optional<ConnectionContext> connections_;
   std::optional<ConnectionBudget> budget_;
   PathRules rules_;

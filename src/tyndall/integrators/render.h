@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tyndall/image/film.h"
+#include "tyndall/integrators/connection_settings.h"
 #include "tyndall/integrators/render_settings.h"
 #include "tyndall/scene/scene.h"
 
@@ -54,9 +55,6 @@ struct RenderResult {
   Film film;
   RenderStatistics statistics;
 };
-
-/// The names that RenderSettings::integrator may have.
-std::vector<std::string> integrator_names();
 
 /// Renders in passes of growing size. The same scene, seed and number of samples give the
 /// same film bit for bit with any number of threads. Throws std::invalid_argument for an

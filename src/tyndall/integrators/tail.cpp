@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tyndall/integrators/tail.h"
 
-#include "tyndall/techniques/double_scattering_direction.h"
+#include "tyndall/integrators/dual_direction.h"
 
 namespace tyndall {
 
@@ -14,8 +14,8 @@ float dual_density(const ConnectionContext& context, ConnectionLeg& before,
   const bool is_reached = before.reaches_dual(x, light);
   const Medium* medium = is_reached ? before.proxy().medium_at(x.t) : nullptr;
   if (!medium) return 0;
-  const DoubleScatteringDirection direction(context.tables(*medium), x.p, before.ray().d,
-                                            *before.pivot(light));
+  const DualDirection direction =
+      dual_direction(context, *medium, x.p, before.ray().d, light, *before.pivot(light));
   return before.dual(light)->pdf_t(x.t) * direction.pdf(leg.ray().d) *
          before.light_probability(light);
 }

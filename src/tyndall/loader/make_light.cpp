@@ -7,7 +7,7 @@
 
 #include "tyndall/loader/environment_picture.h"
 #include "tyndall/loader/make_scene_parts.h"
-#include "tyndall/loader/nearest_name.h"
+#include "tyndall/integrators/nearest_name.h"
 #include "tyndall/loader/spectrum.h"
 
 namespace tyndall::loader {

@@ -8,7 +8,7 @@
 
 #include "tyndall/loader/make_scene_parts.h"
 #include "tyndall/loader/named_spectra.h"
-#include "tyndall/loader/nearest_name.h"
+#include "tyndall/integrators/nearest_name.h"
 
 namespace tyndall::loader {
 namespace {

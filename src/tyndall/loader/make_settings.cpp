@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "tyndall/loader/make_scene_parts.h"
-#include "tyndall/loader/nearest_name.h"
+#include "tyndall/integrators/nearest_name.h"
 
 namespace tyndall::loader {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "tyndall/loader/make_scene_parts.h"
 #include "tyndall/loader/mesh_parts.h"
-#include "tyndall/loader/nearest_name.h"
+#include "tyndall/integrators/nearest_name.h"
 #include "tyndall/loader/ply.h"
 
 namespace tyndall::loader {

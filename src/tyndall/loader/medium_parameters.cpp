@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "tyndall/loader/nearest_name.h"
+#include "tyndall/integrators/nearest_name.h"
 #include "tyndall/loader/spectrum.h"
 
 namespace tyndall::loader {

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "tyndall/loader/nearest_name.h"
+#include "tyndall/integrators/nearest_name.h"
 
 namespace tyndall::loader {
 namespace {

@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "tyndall/loader/directives.h"
-#include "tyndall/loader/nearest_name.h"
+#include "tyndall/integrators/nearest_name.h"
 #include "tyndall/loader/numbers.h"
 #include "tyndall/loader/scene_builder.h"
 

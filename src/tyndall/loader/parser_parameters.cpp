@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "tyndall/loader/nearest_name.h"
+#include "tyndall/integrators/nearest_name.h"
 #include "tyndall/loader/numbers.h"
 #include "tyndall/loader/parser.h"
 #include "tyndall/loader/scene_builder.h"

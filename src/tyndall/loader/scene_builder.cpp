@@ -8,7 +8,7 @@
 #include <array>
 #include <cmath>
 
-#include "tyndall/loader/nearest_name.h"
+#include "tyndall/integrators/nearest_name.h"
 
 namespace tyndall::loader {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "tyndall/loader/nearest_name.h"
+#include "tyndall/integrators/nearest_name.h"
 #include "tyndall/loader/scene_builder.h"
 
 namespace tyndall::loader {

@@ -6,7 +6,7 @@
 #include <array>
 #include <cctype>
 
-#include "tyndall/loader/nearest_name.h"
+#include "tyndall/integrators/nearest_name.h"
 #include "tyndall/loader/numbers.h"
 #include "tyndall/loader/scene_builder.h"
 

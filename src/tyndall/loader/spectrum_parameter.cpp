@@ -6,7 +6,7 @@
 
 #include "tyndall/loader/color_space.h"
 #include "tyndall/loader/named_spectra.h"
-#include "tyndall/loader/nearest_name.h"
+#include "tyndall/integrators/nearest_name.h"
 #include "tyndall/loader/numbers.h"
 #include "tyndall/loader/spectrum.h"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "tyndall/image/io.h"
-#include "tyndall/loader/nearest_name.h"
+#include "tyndall/integrators/nearest_name.h"
 
 namespace tyndall::loader {
 namespace {

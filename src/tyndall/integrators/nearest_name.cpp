@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tyndall/loader/nearest_name.h"
+#include "tyndall/integrators/nearest_name.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <cctype>
 #include <numeric>
 
-namespace tyndall::loader {
+namespace tyndall {
 namespace {
 
 char lower(char c) {
@@ -61,4 +61,4 @@ std::string quoted_list(const std::vector<std::string_view>& names) {
   return list;
 }
 
-}  // namespace tyndall::loader
+}  // namespace tyndall

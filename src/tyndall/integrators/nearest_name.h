@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace tyndall::loader {
+namespace tyndall {
 
 /// `; did you mean "..."?` with the most similar of `names`, or an empty string if none is
 /// similar enough to be meant.
@@ -22,4 +22,4 @@ std::vector<std::string_view> keys_of(const Map& map) {
 /// The names in quotes, with commas between.
 std::string quoted_list(const std::vector<std::string_view>& names);
 
-}  // namespace tyndall::loader
+}  // namespace tyndall

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tyndall/integrators/connection_settings.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+
+#include "tyndall/integrators/lit_surface.h"
+#include "tyndall/integrators/nearest_name.h"
+
+namespace tyndall {
+namespace {
+
+const std::vector<std::pair<std::string, ConnectionSettings>>& integrators() {
+  static const std::vector<std::pair<std::string, ConnectionSettings>> all{
+      {"volpath", {}},
+      {"equiangular", {.single = true}},
+      {"jis", {.single = true, .dual = true}},
+      {"learned",
+       {.single = true,
+        .dual = true,
+        .min_distance_ratio = 1,
+        .visibility = true,
+        .lit_surfaces = max_lit_surfaces,
+        .direction = true}},
+      {"zhou2016",
+       {.single = true, .dual = true, .min_distance_ratio = 1, .direction = true}}};
+  return all;
+}
+
+using Switch = void (*)(ConnectionSettings&, bool is_on);
+using Switches = std::map<std::string_view, Switch>;
+
+// What can be turned off, by the integrator's name and a dot.
+const Switches& switches_of(const std::string& integrator) {
+  static const Switches none;
+  static const Switches zhou2016{
+      {"learned.product", [](ConnectionSettings& s, bool is_on) { s.product = is_on; }},
+      {"learned.pretraining",
+       [](ConnectionSettings& s, bool is_on) { s.pretraining = is_on; }}};
+  static const Switches learned{
+      {"learned.direction", [](ConnectionSettings& s, bool is_on) { s.direction = is_on; }},
+      {"learned.product", [](ConnectionSettings& s, bool is_on) { s.product = is_on; }},
+      {"learned.pretraining",
+       [](ConnectionSettings& s, bool is_on) { s.pretraining = is_on; }},
+      {"learned.distance", [](ConnectionSettings& s, bool is_on) { s.visibility = is_on; }},
+      {"learned.lit_surfaces", [](ConnectionSettings& s, bool is_on) {
+         if (!is_on) s.lit_surfaces = 0;
+       }}};
+  if (integrator == "learned") return learned;
+  return integrator == "zhou2016" ? zhou2016 : none;
+}
+
+bool parse_switch(const std::string& name, const std::string& value) {
+  if (value == "on") return true;
+  if (value == "off") return false;
+  throw std::invalid_argument(
+      fmt::format("option \"{}\" is \"on\" or \"off\", not \"{}\"", name, value));
+}
+
+}  // namespace
+
+std::vector<std::string> integrator_names() {
+  std::vector<std::string> names;
+  for (const auto& entry : integrators()) names.push_back(entry.first);
+  return names;
+}
+
+ConnectionSettings connection_settings(const std::string& integrator,
+                                       const std::map<std::string, std::string>& options) {
+  const ConnectionSettings* found = nullptr;
+  for (const auto& [name, settings] : integrators())
+    if (name == integrator) found = &settings;
+  if (!found)
+    throw std::invalid_argument(fmt::format("unknown integrator \"{}\"; there are: {}",
+                                            integrator,
+                                            fmt::join(integrator_names(), ", ")));
+  ConnectionSettings settings = *found;
+  const Switches& switches = switches_of(integrator);
+  for (const auto& [name, value] : options) {
+    const auto entry = switches.find(name);
+    if (entry == switches.end())
+      throw std::invalid_argument(fmt::format("integrator \"{}\" has no option \"{}\"{}",
+                                              integrator, name,
+                                              did_you_mean(name, keys_of(switches))));
+    entry->second(settings, parse_switch(name, value));
+  }
+  return settings;
+}
+
+}  // namespace tyndall

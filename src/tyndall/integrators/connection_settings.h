@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tyndall {
+
+class RecordCache;
+
+/// Which connections the vertices of a walk make, beside next event estimation.
+struct ConnectionSettings {
+  bool single = false;  ///< through one further scattering vertex on the leg
+  bool dual = false;    ///< through two: one on the leg, one beyond
+  /// Legs along which the distance to the light varies by less than this factor are left to
+  /// next event estimation: there is nothing to gain.
+  float min_distance_ratio = 1.2f;
+  bool visibility = false;  ///< predict what the lights see, for distances
+  /// Connect to surfaces that lights shine on, by way of as many surfaces in all; zero: do
+  /// not.
+  int lit_surfaces = 0;
+  bool direction = false;   ///< learn the directions of dual connections
+  bool product = true;      ///< ... and multiply them by the phase function
+  bool pretraining = true;  ///< ... beginning with what arrives if nothing is in the way
+  size_t direction_memory = size_t{128} << 20;  ///< for what is learned [bytes]
+  /// What is known of directions beforehand, for the light clusters of the scene; a render
+  /// that is given this learns no more.
+  std::shared_ptr<const RecordCache> known_directions;
+};
+
+/// The settings of an integrator of that name with options as `--set` gives them, by dotted
+/// name. Throws std::invalid_argument for an unknown integrator, option or value; the
+/// message names the nearest valid one.
+ConnectionSettings connection_settings(const std::string& integrator,
+                                       const std::map<std::string, std::string>& options);
+
+/// The names of all integrators, in the order of what they can do.
+std::vector<std::string> integrator_names();
+
+}  // namespace tyndall

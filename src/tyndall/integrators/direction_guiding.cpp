@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tyndall/integrators/direction_guiding.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+#include "tyndall/guiding/light_clusters.h"
+#include "tyndall/integrators/integrator.h"
+#include "tyndall/scene/scene.h"
+
+namespace tyndall {
+namespace {
+
+constexpr size_t max_clusters = 16;
+// What training samples may take of the memory.
+constexpr size_t log_part = 3;
+// More samples of one pass teach little: later passes bring other ones.
+constexpr size_t max_samples = 100'000;
+// What a sample of pre-training counts for, beside one of the scene.
+constexpr double pretraining_worth = 0.05;
+
+LightClusters clusters_of(const Scene& scene) {
+  const float radius = 0.5f * length(scene.bounds().diagonal());
+  std::vector<ClusterableLight> lights;
+  for (const Light& light : scene.lights()) {
+    const std::optional<LightExtent> extent = light.extent();
+    lights.push_back({.p = extent ? extent->box.center() : Vec3{},
+                      .power = luminance(light.power(radius)),
+                      .is_infinite = !extent});
+  }
+  return cluster_lights(lights, max_clusters);
+}
+
+std::vector<LightCluster> to_learn(const LightClusters& clusters) {
+  std::vector<LightCluster> result;
+  for (size_t i = 0; i < clusters.size(); ++i)
+    result.push_back({.measure = clusters.is_infinite[i] ? SquareMeasure::solid_angle
+                                                         : SquareMeasure::joint_sampling,
+                      .power = std::max(clusters.power[i], 1e-20f)});
+  return result;
+}
+
+RecordCacheSettings cache_settings(size_t memory) {
+  RecordCacheSettings settings;
+  settings.memory = memory - memory / log_part;
+  settings.split_samples = 500;
+  return settings;
+}
+
+void parallel_for(size_t n, const std::function<void(size_t)>& body) {
+  tbb::parallel_for(size_t{0}, n, body);
+}
+
+}  // namespace
+
+DirectionGuiding::DirectionGuiding(const Scene& scene, const ConnectionSettings& settings)
+    : settings_(settings),
+      cluster_of_(clusters_of(scene).cluster_of),
+      cache_(to_learn(clusters_of(scene)), cache_settings(settings.direction_memory)),
+      field_(cache_.field()),
+      log_(std::min(settings.direction_memory / log_part / sizeof(TrainingSample),
+                    max_samples)) {
+  if (settings.known_directions) field_ = settings.known_directions->field();
+}
+
+const DirectionGuide* DirectionGuiding::find(Vec3 p, size_t light) const {
+  const GuidingRecord* record = field_->find(p);
+  return record ? field_->guide(*record, cluster_of_[light]) : nullptr;
+}
+
+void DirectionGuiding::start_pretraining() { is_recording_ = !settings_.known_directions; }
+
+void DirectionGuiding::finish_pretraining() {
+  if (!is_recording_) return;
+  cache_.update(log_.take(1), parallel_for);
+  cache_.forget(pretraining_worth);
+  field_ = cache_.field();
+}
+
+uint32_t DirectionGuiding::prepare(uint32_t first) {
+  if (settings_.known_directions) return Integrator::unlimited;
+  const uint32_t next = first == 0 ? 1 : 2 * first;
+  if (first > 0) {
+    log_memory_ = std::max(log_memory_, log_.memory());
+    const uint32_t last_pass = first - last_prepared_;
+    cache_.update(log_.take(static_cast<double>(next - first) / last_pass), parallel_for);
+    field_ = cache_.field();
+  }
+  is_recording_ = true;
+  last_prepared_ = first;
+  return next;
+}
+
+void DirectionGuiding::report(RenderStatistics& statistics) const {
+  const GuidingStatistics s = cache_.statistics();
+  if (s.trained_guides == 0 && !settings_.known_directions)
+    statistics.notes.push_back(
+        "no directions were learned: no light arrived after two scattering events, or too "
+        "few samples were taken");
+  const auto set = [&](const char* name, double value) {
+    statistics.counters[std::string("guiding.") + name] = value;
+  };
+  set("records", static_cast<double>(s.records));
+  set("guides", static_cast<double>(s.guides));
+  set("guides.trained", static_cast<double>(s.trained_guides));
+  set("samples", static_cast<double>(s.samples));
+  set("samples.rejected", static_cast<double>(s.rejected));
+  set("samples.per_record",
+      static_cast<double>(s.samples) / std::max(static_cast<double>(s.records), 1.0));
+  set("components.effective", s.effective_components);
+  set("leak", s.leak);
+  set("mixture_share", s.mixture_share);
+  set("radius", s.radius);
+  set("memory_bytes", static_cast<double>(s.memory + log_memory_));
+}
+
+}  // namespace tyndall

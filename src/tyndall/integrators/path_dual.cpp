@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+// Connections of a path to lights through two further scattering vertices.
+#include "tyndall/integrators/dual_direction.h"
+#include "tyndall/integrators/path.h"
+
+namespace tyndall {
+
+// The first vertex of a dual connection, and the direction it goes on in.
+struct Path::DualStart {
+  SelectedLight light;
+  Vertex x;
+  const Medium* medium;
+  DistanceSample distance;
+  DoubleDirectionSample direction;
+};
+
+// What arrives there from that direction.
+struct Path::ScatteredOnce {
+  Rgb light;                  // over the densities of its vertex and of the light's point
+  float weight = 0;           // of multiple importance sampling
+  float distance = infinity;  // to the vertex that scattered it
+};
+
+Rgb Path::connect_dual(Leg& leg) {
+  const std::optional<SelectedLight> selected = leg_.select_light(sampler_.next_1d());
+  const float u_first = sampler_.next_1d(), u_last = sampler_.next_1d();
+  const Vec2 u_direction = sampler_.next_2d();
+  const ConnectionLeg::Double* dual = selected ? leg_.dual(selected->index) : nullptr;
+  if (!dual) return Rgb();
+  const std::optional<DistanceSample> first = dual->sample(u_first);
+  const Medium* medium = first ? leg_.proxy().medium_at(first->t) : nullptr;
+  if (!medium) return Rgb();
+  const Vertex x(leg.ray().at(first->t), -leg.ray().d, medium);
+  const DualDirection technique =
+      dual_direction(*rules_.connections, *medium, x.p(), leg.ray().d, selected->index,
+                     *leg_.pivot(selected->index));
+  const std::optional<DoubleDirectionSample> direction = technique.sample(u_direction);
+  if (!direction) return Rgb();
+  const DualStart start{*selected, x, medium, *first, *direction};
+  const ScatteredOnce found = connect_beyond(start, u_last);
+  teach(start, technique, found);
+  if (is_black(found.light)) return Rgb();
+  const Rgb scattered =
+      leg_transmittance(leg, first->t) * medium->at(x.p()).sigma_s * x.eval(direction->w);
+  const float pdf = first->pdf_t * direction->pdf * selected->probability;
+  return beta_ * scattered * found.light * (found.weight / pdf);
+}
+
+void Path::rehearse(Leg& leg) {
+  enter(leg);
+  if (!leg_.is_empty() && counts(2)) connect_dual(leg);
+}
+
+// Follows the direction of the dual connection to its second vertex, and connects that.
+Path::ScatteredOnce Path::connect_beyond(const DualStart& start, float u) {
+  const Vec3 w = start.direction.w;
+  Leg next(scene_, start.x.spawn(w), start.medium);
+  ConnectionLeg next_leg(*rules_.connections, pivots_, next);
+  const ConnectionLeg::Single* single = next_leg.single(start.light.index);
+  const std::optional<DistanceSample> second =
+      single ? single->sample(u) : std::optional<DistanceSample>();
+  const Medium* medium = second ? next_leg.proxy().medium_at(second->t) : nullptr;
+  if (!medium) return {.light = Rgb()};
+  const Vertex y(next.ray().at(second->t), -w, medium);
+  const Connection connection = connect_to(y, start.light);
+  if (is_black(connection.light)) return {.light = Rgb(), .distance = second->t};
+  return {.light = leg_transmittance(next, second->t) * medium->at(y.p()).sigma_s *
+                   connection.light / (second->pdf_t * connection.end.pdf),
+          .weight = dual_weight(start, next_leg, second->t, connection.end),
+          .distance = second->t};
+}
+
+float Path::dual_weight(const DualStart& start, ConnectionLeg& next, float t,
+                        const LightEnd& end) {
+  // Single connections and next event estimation leave the path to this one; only a walk
+  // that hits the light makes it too.
+  if (end.pdf_direction == 0) return 1;
+  const LegStart at_x =
+      start_of_leg(start.x, start.distance.t, start.x.pdf(start.direction.w), false);
+  const TailDensities densities =
+      tail_densities(*rules_.connections, leg_, at_x, next, t, end);
+  return densities.weight(densities.dual);
+}
+
+// Tells the guiding what came of a direction, nothing included.
+void Path::teach(const DualStart& start, const DualDirection& technique,
+                 const ScatteredOnce& found) {
+  const DirectionGuiding* guiding = rules_.connections->guiding();
+  if (!guiding) return;
+  const uint64_t key = hash(key_, ++lessons_);
+  if (!guiding->wants(key)) return;
+  const Vec3 w = start.direction.w;
+  const Vec3 to_light = *leg_.pivot(start.light.index) - start.x.p();
+  const float distance = length(to_light);
+  const DirectionShares densities = technique.densities(w);
+  TrainingSample sample;
+  sample.key = key;
+  sample.p = start.x.p();
+  sample.wi = w;
+  sample.light_direction = to_light / distance;
+  sample.weight = luminance(found.light) * found.weight / start.direction.pdf;
+  sample.pdf = start.direction.pdf;
+  sample.phase_pdf = densities[static_cast<size_t>(DirectionTechnique::phase)];
+  sample.mixture_pdf = densities[static_cast<size_t>(DirectionTechnique::mixture)];
+  sample.joint_pdf = densities[static_cast<size_t>(DirectionTechnique::joint_sampling)];
+  sample.scattered = luminance(start.x.eval(w));
+  sample.light_distance = distance;
+  sample.scatter_distance = found.distance;
+  LegProxy::Cursor cursor(leg_.proxy());
+  cursor.move_to(start.distance.t);
+  sample.sigma_t = cursor.sigma_t();
+  sample.cluster = guiding->cluster_of(start.light.index);
+  guiding->record(sample);
+}
+
+}  // namespace tyndall

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tyndall/integrators/connection_settings.h"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+namespace tyndall {
+namespace {
+
+std::string message_of(const std::string& integrator, const std::string& option,
+                       const std::string& value) {
+  try {
+    connection_settings(integrator, {{option, value}});
+  } catch (const std::invalid_argument& e) {
+    return e.what();
+  }
+  return "no exception";
+}
+
+TEST(ConnectionSettingsTest, EverySwitchOfLearnedTurnsItsPartOff) {
+  const ConnectionSettings all = connection_settings("learned", {});
+  EXPECT_TRUE(all.direction && all.visibility && all.lit_surfaces && all.product);
+  const auto without = [](const char* name) {
+    return connection_settings("learned", {{name, "off"}});
+  };
+  EXPECT_FALSE(without("learned.direction").direction);
+  EXPECT_FALSE(without("learned.distance").visibility);
+  EXPECT_FALSE(without("learned.lit_surfaces").lit_surfaces);
+  EXPECT_FALSE(without("learned.product").product);
+  EXPECT_FALSE(without("learned.pretraining").pretraining);
+  EXPECT_TRUE(without("learned.product").direction);
+}
+
+TEST(ConnectionSettingsTest, Zhou2016LearnsDirectionsOnly) {
+  const ConnectionSettings s = connection_settings("zhou2016", {});
+  EXPECT_TRUE(s.single && s.dual && s.direction);
+  EXPECT_FALSE(s.visibility || s.lit_surfaces);
+}
+
+TEST(ConnectionSettingsTest, UnknownOptionNamesTheNearest) {
+  EXPECT_EQ(message_of("learned", "learned.directon", "off"),
+            "integrator \"learned\" has no option \"learned.directon\"; did you mean "
+            "\"learned.direction\"?");
+  EXPECT_EQ(message_of("volpath", "learned.direction", "off"),
+            "integrator \"volpath\" has no option \"learned.direction\"");
+}
+
+TEST(ConnectionSettingsTest, SwitchesAreOnOrOff) {
+  EXPECT_EQ(message_of("learned", "learned.direction", "maybe"),
+            "option \"learned.direction\" is \"on\" or \"off\", not \"maybe\"");
+}
+
+TEST(ConnectionSettingsTest, UnknownIntegratorNamesTheKnownOnes) {
+  EXPECT_EQ(message_of("learnt", "a", "b"),
+            "unknown integrator \"learnt\"; there are: volpath, equiangular, jis, learned, "
+            "zhou2016");
+}
+
+}  // namespace
+}  // namespace tyndall
