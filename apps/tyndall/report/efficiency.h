@@ -42,9 +42,9 @@ std::optional<RatioEstimate> cost_ratio(const std::vector<Run>& method,
 /// cost_ratio() as text: "1" for the baseline itself, "-" where there is none.
 std::string ratio_text(const Method& method, const Method& baseline, RunCost cost);
 
-/// "the same error as volpath in 13 times less time; without the worst 0.1 % of the pixels in
-/// 9 times less time". Empty where there is no ratio. The second part is what remains where
-/// a few fireflies make the error.
+/// "the same error as volpath in 13 times less time; without the worst 0.1 % of the pixels
+/// in 9 times less time". Empty where there is no ratio. The second part is what remains
+/// where a few fireflies make the error.
 std::string time_sentence(const Method& method, const Method& baseline);
 
 /// Whether the reference's own noise is more than a tenth of the smallest error measured

@@ -28,11 +28,11 @@ SceneHit reconstruct_curved(const TargetShape& target, const RayHit& hit,
                             const PreciseRay& ray, const InstanceMaps* instance) {
   // The search told the distance only; the same arithmetic finds the same point again.
   const std::optional<PreciseHit> found = target.intersect(hit.primitive, ray, infinity);
-  SceneHit result{.t = hit.t,
-                  .group = 0,
-                  .shape = hit.shape,
-                  .point = surface_point(target.shape(), hit.primitive,
-                                         found ? found->uv : Vec2{})};
+  SceneHit result{
+      .t = hit.t,
+      .group = 0,
+      .shape = hit.shape,
+      .point = surface_point(target.shape(), hit.primitive, found ? found->uv : Vec2{})};
   const Vec3d p = found ? found->p : Vec3d(result.point.p);
   result.point.p = to_float(p);
   if (instance) move_to_world(*instance, p, result);
