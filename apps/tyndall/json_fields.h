@@ -50,7 +50,8 @@ struct JsonWriter {
   }
 };
 
-/// Takes the members out of an object. `path` says where it stands, for messages.
+/// Takes the members out of an object; optional ones may be missing. `path` says where it
+/// stands, for messages.
 struct JsonReader {
   const nlohmann::json& object;
   std::string path;
@@ -59,8 +60,11 @@ struct JsonReader {
   void operator()(const char* name, T& value) const {
     const std::string place = path.empty() ? name : path + "." + name;
     const auto found = object.find(name);
-    if (found == object.end()) throw std::runtime_error(place + " is missing");
-    read_json(*found, place, value);
+    if (found != object.end()) return read_json(*found, place, value);
+    if constexpr (requires { value.reset(); })
+      value.reset();
+    else
+      throw std::runtime_error(place + " is missing");
   }
 };
 

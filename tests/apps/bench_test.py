@@ -69,6 +69,7 @@ class ResultsTest(BenchTest):
                 self.assertEqual(samples[-1], run["samples_per_pixel"])
                 self.assertEqual(points[-1]["rel_mse"], run["errors"]["rel_mse"])
                 self.assertEqual(seconds[-1], run["seconds"])
+                self.assertGreater(run["peak_memory_bytes"], 1e6)
                 self.assertGreaterEqual(run["seconds"], 0.025)  # half a pass may be missing
 
     def test_command_renders_the_same_image(self):

@@ -3,6 +3,8 @@
 
 #include <chrono>
 
+#include "apps/tyndall/bench/peak_memory.h"
+
 namespace tyndall::app {
 
 namespace {
@@ -94,12 +96,15 @@ std::optional<MeasuredRun> measure_run(const Scene& scene, const RenderSettings&
   render_options.on_pass = [&](const Film& film, uint32_t samples) {
     recorder.on_pass(film, samples);
   };
+  reset_peak_memory();
   RenderResult result = render(scene, settings, render_options);
+  const std::optional<double> peak_memory = peak_memory_since_reset();
   if (options.stop->load()) return std::nullopt;
   MeasuredRun measured{describe(result.statistics, settings), std::move(result.statistics),
                        result.film.develop()};
   Run& run = measured.run;
   run.seconds = recorder.seconds();
+  run.peak_memory_bytes = peak_memory;
   run.errors = measure_errors(measured.image, reference, options.metrics);
   run.bias = test_bias(measured.image, reference);
   recorder.record(run.errors, run.samples_per_pixel);

@@ -24,8 +24,8 @@ struct MeasuredRun {
   Image image;
 };
 
-/// Renders until the time is over, to half a pass, with checkpoints at growing intervals; the clock stands
-/// still while they are measured. Empty if `stop` became true.
+/// Renders until the time is over, to half a pass, with checkpoints at growing intervals;
+/// the clock stands still while they are measured. Empty if `stop` became true.
 std::optional<MeasuredRun> measure_run(const Scene& scene, const RenderSettings& settings,
                                        const Image& reference, const RunOptions& options);
 

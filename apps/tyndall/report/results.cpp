@@ -36,6 +36,7 @@ void fields(auto& archive, Of<Run> auto& run) {
   archive("samples_per_pixel", run.samples_per_pixel);
   archive("paths", run.paths);
   archive("rejected_samples", run.rejected_samples);
+  archive("peak_memory_bytes", run.peak_memory_bytes);
   archive("checkpoints", run.checkpoints);
   archive("errors", run.errors);
   archive("bias", run.bias);

@@ -26,6 +26,8 @@ struct Run {
   double seconds = 0, training_seconds = 0, cpu_seconds = 0;
   uint32_t samples_per_pixel = 0;
   int64_t paths = 0, rejected_samples = 0;
+  /// Of the process during the run, scene and reference included; empty if unknown.
+  std::optional<double> peak_memory_bytes;
   std::vector<Checkpoint> checkpoints;  ///< in time
   ImageErrors errors;                   ///< of the last image
   std::optional<BiasTest> bias;

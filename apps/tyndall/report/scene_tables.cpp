@@ -117,6 +117,10 @@ Row cost_row(const Method& method, const Method& baseline, double samples) {
           mean_of(method, [](const Run& r) { return r.seconds; }),
           fixed_mean(method, [](const Run& r) { return r.training_seconds; }),
           mean_of(method, [](const Run& r) { return 1e-6 * double(r.paths) / r.seconds; }),
+          mean_of(method,
+                  [](const Run& r) {
+                    return std::round(1e-6 * r.peak_memory_bytes.value_or(not_measured));
+                  }),
           ratio_text(method, baseline, cost_in_time),
           ratio_text(method, baseline, trimmed_cost_in_time),
           ratio_text(method, baseline, cost_in_samples),
@@ -217,7 +221,7 @@ std::string method_table_html(const SceneResults& scene) {
                      "HDR-FLIP", "99.9 %", "biased runs"},
                     errors, methods) +
          table_html({"method", "runs", "spp", "seconds", "of them learning", "Mpaths/s",
-                     "times less time", "trimmed", "times fewer samples",
+                     "MB", "times less time", "trimmed", "times fewer samples",
                      fmt::format("relMSE at {:g} spp", samples)},
                     costs, methods);
 }
