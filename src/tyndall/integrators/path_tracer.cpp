@@ -5,6 +5,8 @@
 #include <cmath>
 #include <variant>
 
+#include "tyndall/integrators/useful_connections.h"
+
 namespace tyndall {
 namespace {
 
@@ -33,10 +35,16 @@ PathTracer::PathTracer(const Scene& scene, const RenderSettings& settings,
               std::ranges::any_of(scene.lights(), can_be_hit),
           .connections = nullptr,
           .budget = nullptr} {
-  if (!connections.single) return;
-  connections_.emplace(scene, connections);
-  // Without finite lights there is nothing to connect to.
-  if (!connections_->light_choice().has_finite_lights()) return;
+  const ConnectionSettings useful = useful_connections(scene, connections);
+  if (!useful.single) {
+    if (connections.single)
+      notes_.push_back(
+          "no light is near enough to what scatters for connections to help: rendered as "
+          "by "
+          "\"volpath\"");
+    return;
+  }
+  connections_.emplace(scene, useful);
   rules_.connections = &*connections_;
   budget_.emplace(pilot_radiance());
   rules_.budget = &*budget_;
@@ -97,6 +105,7 @@ uint32_t PathTracer::prepare(uint32_t first) {
 }
 
 void PathTracer::report(RenderStatistics& statistics) const {
+  for (const std::string& note : notes_) statistics.notes.push_back(note);
   if (!budget_) return;
   statistics.counters["connections.single"] = double{budget_->count(Effort::single, 0)};
   statistics.counters["connections.dual"] = double{budget_->count(Effort::dual, 0)};

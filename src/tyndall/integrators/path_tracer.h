@@ -30,6 +30,7 @@ class PathTracer : public Integrator {
   std::optional<ConnectionContext> connections_;
   std::optional<ConnectionBudget> budget_;
   PathRules rules_;
+  std::vector<std::string> notes_;
 };
 
 }  // namespace tyndall

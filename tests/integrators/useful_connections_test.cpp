@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tyndall/integrators/useful_connections.h"
+
+#include <gtest/gtest.h>
+
+#include "scenes.h"
+
+namespace tyndall {
+namespace {
+
+// A ball of fog, the camera outside, and a light at that distance.
+SceneDescription ball_and_light(float distance) {
+  SceneDescription d;
+  d.camera = test::camera({0, 0, -3}, {0, 0, 0});
+  d.media.push_back(test::grey_fog(1, 0, 0.3f));
+  d.surfaces.push_back(test::boundary_sphere(1));
+  d.lights.push_back(Light(PointLight{{distance, 0, 0}, Rgb(distance * distance)}));
+  return d;
+}
+
+ConnectionSettings useful(SceneDescription description) {
+  return useful_connections(Scene(std::move(description)),
+                            connection_settings("learned", {}));
+}
+
+TEST(UsefulConnectionsTest, NearLightsKeepTheirConnections) {
+  const ConnectionSettings s = useful(ball_and_light(2));
+  EXPECT_TRUE(s.single && s.dual && s.direction);
+  // Nothing hides the light.
+  EXPECT_FALSE(s.visibility || s.lit_surfaces);
+  EXPECT_EQ(s.min_distance_ratio, ConnectionSettings().min_distance_ratio);
+}
+
+TEST(UsefulConnectionsTest, OccludersAreAReasonToLearnThemForFarLightsToo) {
+  for (const float distance : {2.0f, 100.0f}) {
+    SceneDescription d = ball_and_light(distance);
+    d.surfaces.push_back(test::diffuse_disk(0.5f, 0.5f, 0.5f));
+    const ConnectionSettings s = useful(std::move(d));
+    EXPECT_TRUE(s.single && s.dual && s.direction && s.visibility && s.lit_surfaces);
+    EXPECT_EQ(s.min_distance_ratio, 1);
+  }
+}
+
+TEST(UsefulConnectionsTest, FarLightsThatNothingHidesNeedNone) {
+  EXPECT_FALSE(useful(ball_and_light(100)).single);
+  SceneDescription unbounded = ball_and_light(100);
+  unbounded.camera_medium = 0;
+  EXPECT_TRUE(useful(std::move(unbounded)).single);
+  SceneDescription sky_only = ball_and_light(2);
+  sky_only.lights = {Light(ConstantEnvironment{Rgb(1)})};
+  EXPECT_FALSE(useful(std::move(sky_only)).single);
+}
+
+TEST(UsefulConnectionsTest, WithoutThemLearnedIsVolpathAndSaysSo) {
+  const Scene scene(ball_and_light(100));
+  const auto rendered = [&](const char* integrator) {
+    RenderSettings s = test::settings(integrator, 5);
+    s.resolution = s.crop_max = {16, 16};
+    return render(scene, s);
+  };
+  const RenderResult learned = rendered("learned"), volpath = rendered("volpath");
+  EXPECT_EQ(learned.film.develop().find("G")->values,
+            volpath.film.develop().find("G")->values);
+  EXPECT_EQ(
+      learned.statistics.notes,
+      std::vector<std::string>{
+          "no light is near enough to what scatters for connections to help: rendered "
+          "as by \"volpath\""});
+  EXPECT_TRUE(volpath.statistics.notes.empty());
+}
+
+}  // namespace
+}  // namespace tyndall
