@@ -82,7 +82,6 @@ TEST(RecordCacheTest, LearnsWhereTheLightComesFrom) {
     learn(cache, random_samples(pass * 1'000'000, 10'000 << pass));
   const auto field = cache.field();
   double learned = 0, untrained = 0;
-  RandomStream random(5);
   for (int i = 0; i < 20'000; ++i) {
     const TrainingSample s = random_sample(77'000'000 + static_cast<uint64_t>(i));
     const GuidingRecord* record = field->find(s.p);

@@ -162,7 +162,7 @@ INSTANTIATE_TEST_SUITE_P(Extremes, ExponentialWarp,
                                          Exponential{1e-30f, infinity}));
 
 TEST_P(ExponentialWarp, MatchesItsDensity) {
-  const auto [sigma, t_max] = GetParam();
+  const float sigma = GetParam().sigma, t_max = GetParam().t_max;
   const float end = std::min(t_max, 8 / sigma);
   // In units of the range, so that floats of any size are compared alike.
   const auto draw = [=](float u) { return sample_exponential(u, sigma, t_max) / end; };
@@ -192,7 +192,7 @@ TEST_P(ExponentialWarp, InverseUndoesSampleAndStaysInRange) {
 }
 
 TEST_P(ExponentialWarp, DensityIsTheInverseJacobian) {
-  const auto [sigma, t_max] = GetParam();
+  const float sigma = GetParam().sigma, t_max = GetParam().t_max;
   const auto map = [=](float u) { return sample_exponential(u, sigma, t_max); };
   for (const float u : {0.1f, 0.5f, 0.8f})
     EXPECT_NEAR(double{exponential_pdf(map(u), sigma, t_max)} * line_jacobian(map, u), 1,

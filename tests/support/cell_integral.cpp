@@ -10,8 +10,6 @@ namespace {
 
 using Function = std::function<double(double, double)>;
 
-constexpr int min_depth =
-    2;  // a jump that clips a corner between the nodes shows only when refined
 constexpr int max_depth = 24;
 constexpr int max_cells = 20'000;
 constexpr double absolute_tolerance = 1e-8;
