@@ -11,6 +11,7 @@ namespace tyndall::app {
 void add_bench_command(Program& program);
 void add_compare_command(Program& program);
 void add_convert_command(Program& program);
+void add_info_command(Program& program);
 void add_render_command(Program& program);
 void add_report_command(Program& program);
 

@@ -11,5 +11,6 @@ int main(int argc, char** argv) {
   add_convert_command(program);
   add_bench_command(program);
   add_report_command(program);
+  add_info_command(program);
   return static_cast<int>(program.run(argc, argv));
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tyndall/media/brick_grid.h"
 
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -9,7 +8,6 @@
 #include <cassert>
 #include <cmath>
 #include <map>
-#include <mutex>
 #include <utility>
 
 namespace tyndall {
@@ -18,11 +16,6 @@ namespace {
 constexpr int edge = BrickGrid::edge;
 constexpr int side = BrickGrid::side;
 constexpr size_t brick_size = BrickGrid::brick_size;
-
-// Marks of bricks_ until the bricks have their places.
-constexpr uint32_t zero_brick = 0;
-constexpr uint32_t constant_brick = 1;
-constexpr uint32_t full_brick = 2;
 
 Vec3i smaller(Vec3i a, Vec3i b) {
   return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
@@ -33,12 +26,6 @@ Vec3i larger(Vec3i a, Vec3i b) {
 
 size_t product(Vec3i v) {
   return static_cast<size_t>(v.x) * static_cast<size_t>(v.y) * static_cast<size_t>(v.z);
-}
-
-Vec3i brick_at(size_t index, Vec3i count) {
-  const size_t nx = static_cast<size_t>(count.x), ny = static_cast<size_t>(count.y);
-  return {static_cast<int>(index % nx), static_cast<int>(index / nx % ny),
-          static_cast<int>(index / (nx * ny))};
 }
 
 // Larger numbers would overflow in optical depths.
@@ -75,84 +62,108 @@ BrickGrid::Extent extent_of(Vec3i brick, std::span<const float> samples) {
   return extent;
 }
 
-// What one thread learns of the bricks it looks at.
-struct Survey {
-  BrickGrid::Extent extent;
-  BrickGrid::Rejected rejected;
-  std::vector<std::pair<size_t, float>> constants;
+}  // namespace
 
-  uint32_t classify(size_t index, Vec3i brick, BrickGrid::Samples samples) {
-    const BrickGrid::Rejected r = clean(samples);
+// The bricks of one slab at one y and z that are not zero.
+struct BrickGrid::Row {
+  Extent extent;
+  Rejected rejected;
+  std::vector<std::pair<int, float>> constants;  // where along x, and the value
+  std::vector<std::pair<int, Stored>> full;
+
+  void add(const BrickGrid& grid, Vec3i brick, Samples samples) {
+    const Rejected r = clean(samples);
     rejected.negative += r.negative;
     rejected.not_finite += r.not_finite;
     const float v = samples[0];
     const bool is_constant =
         std::all_of(samples.begin(), samples.end(), [v](float w) { return w == v; });
-    if (is_constant && v == 0) return zero_brick;
+    if (is_constant && v == 0) return;
     merge(extent, extent_of(brick, samples));
-    if (!is_constant) return full_brick;
-    constants.emplace_back(index, v);
-    return constant_brick;
-  }
-
-  void merge_with(const Survey& o) {
-    merge(extent, o.extent);
-    rejected.negative += o.rejected.negative;
-    rejected.not_finite += o.rejected.not_finite;
-    constants.insert(constants.end(), o.constants.begin(), o.constants.end());
+    if (is_constant)
+      constants.emplace_back(brick.x, v);
+    else
+      full.emplace_back(brick.x, grid.store(samples));
   }
 };
 
-Survey survey(Vec3i brick_count, const BrickGrid::Source& source,
-              std::vector<uint32_t>& marks) {
-  Survey whole;
-  std::mutex mutex;
-  tbb::parallel_for(tbb::blocked_range<size_t>(0, marks.size(), 256),
-                    [&](const auto& range) {
-                      Survey part;
-                      std::array<float, brick_size> samples;
-                      for (size_t i = range.begin(); i != range.end(); ++i) {
-                        const Vec3i brick = brick_at(i, brick_count);
-                        if (source(brick, samples))
-                          marks[i] = part.classify(i, brick, samples);
-                      }
-                      const std::scoped_lock lock(mutex);
-                      whole.merge_with(part);
-                    });
-  std::sort(whole.constants.begin(), whole.constants.end());
-  return whole;
+BrickGrid::BrickGrid(Vec3i brick_count, const Source& source, Precision precision,
+                     const Prepare& prepare)
+    : brick_count_(brick_count), precision_(precision) {
+  assert(brick_count.x > 0 && brick_count.y > 0 && brick_count.z > 0);
+  bricks_.assign(product(brick_count), append_constant(0));
+  std::map<float, Entry> constants;
+  // Slabs, for `prepare`, and to hold only few bricks twice.
+  constexpr int slabs = 16;
+  const int thickness = (brick_count.x + slabs - 1) / slabs;
+  for (int first = 0; first < brick_count.x; first += thickness) {
+    const int last = std::min(first + thickness, brick_count.x);
+    if (prepare) prepare(first, last);
+    add_slab(first, last, source, constants);
+  }
+  values_.shrink_to_fit();
+  codes_.shrink_to_fit();
 }
 
-}  // namespace
-
-BrickGrid::BrickGrid(Vec3i brick_count, const Source& source) : brick_count_(brick_count) {
-  assert(brick_count.x > 0 && brick_count.y > 0 && brick_count.z > 0);
-  bricks_.assign(product(brick_count), zero_brick);
-  const Survey found = survey(brick_count, source, bricks_);
-  extent_ = found.extent;
-  rejected_ = found.rejected;
-
-  uint32_t stored = 1;
-  std::vector<size_t> full;
-  for (size_t i = 0; i < bricks_.size(); ++i)
-    if (bricks_[i] == full_brick) full.push_back(i), bricks_[i] = stored++;
-  std::map<float, uint32_t> constants;
-  for (const auto& [i, value] : found.constants) {
-    const auto [place, is_new] = constants.emplace(value, stored);
-    bricks_[i] = place->second;
-    stored += is_new ? 1 : 0;
-  }
-
-  values_.assign(size_t{stored} * brick_size, 0);
-  const auto samples_of = [&](uint32_t i) {
-    return Samples(values_.data() + size_t{i} * brick_size, brick_size);
-  };
-  for (const auto& [value, i] : constants) std::ranges::fill(samples_of(i), value);
-  tbb::parallel_for(size_t{0}, full.size(), [&](size_t i) {
-    const Samples samples = samples_of(bricks_[full[i]]);
-    source(brick_at(full[i], brick_count), samples);
-    clean(samples);
+void BrickGrid::add_slab(int first, int last, const Source& source,
+                         std::map<float, Entry>& constants) {
+  const size_t ny = static_cast<size_t>(brick_count_.y),
+               nz = static_cast<size_t>(brick_count_.z);
+  std::vector<Row> rows(nz * ny);
+  tbb::parallel_for(size_t{0}, rows.size(), [&](size_t i) {
+    std::array<float, brick_size> samples;
+    for (int x = first; x < last; ++x) {
+      const Vec3i brick{x, static_cast<int>(i % ny), static_cast<int>(i / ny)};
+      if (source(brick, samples)) rows[i].add(*this, brick, samples);
+    }
   });
+  // In order, whatever the threads did.
+  for (size_t i = 0; i < rows.size(); ++i) {
+    Row& row = rows[i];
+    const auto brick = [&](int x) -> Entry& {
+      return bricks_[brick_index({x, static_cast<int>(i % ny), static_cast<int>(i / ny)})];
+    };
+    merge(extent_, row.extent);
+    rejected_.negative += row.rejected.negative;
+    rejected_.not_finite += row.rejected.not_finite;
+    for (const auto& [x, stored] : row.full) brick(x) = append(stored);
+    for (const auto& [x, value] : row.constants) {
+      const auto [place, is_new] = constants.emplace(value, Entry{});
+      if (is_new) place->second = append_constant(value);
+      brick(x) = place->second;
+    }
+    row = {};
+  }
+}
+
+BrickGrid::Stored BrickGrid::store(std::span<const float, brick_size> samples) const {
+  if (precision_ == Precision::exact)
+    return {.step = 1, .values = {samples.begin(), samples.end()}};
+  constexpr float largest_code = 65535;
+  const float step = *std::max_element(samples.begin(), samples.end()) / largest_code;
+  // Steps that have no reciprocal are as good as none.
+  const float codes_per_unit = step > 1e-37f ? 1 / step : 0;
+  Stored stored{.step = step};
+  stored.codes.reserve(brick_size);
+  for (const float v : samples)
+    stored.codes.push_back(
+        static_cast<uint16_t>(std::min(v * codes_per_unit + 0.5f, largest_code)));
+  return stored;
+}
+
+BrickGrid::Entry BrickGrid::append(const Stored& brick) {
+  const Entry entry{stored_++, brick.step};
+  if (precision_ == Precision::exact)
+    values_.append(brick.values);
+  else
+    codes_.append(brick.codes);
+  return entry;
+}
+
+BrickGrid::Entry BrickGrid::append_constant(float value) {
+  if (precision_ == Precision::exact)
+    return append({.step = 1, .values = std::vector<float>(brick_size, value)});
+  return append({.step = value, .codes = std::vector<uint16_t>(brick_size, 1)});
 }
 
 BrickGrid BrickGrid::from_dense(const DensityGrid& dense) {
@@ -190,7 +201,7 @@ BrickGrid::Range BrickGrid::range(Vec3i first, Vec3i last) const {
             larger({0, 0, 0}, {first.x - origin.x, first.y - origin.y, first.z - origin.z});
         const Vec3i b = smaller({edge, edge, edge},
                                 {last.x - origin.x, last.y - origin.y, last.z - origin.z});
-        const std::span<const float> v = brick({bx, by, bz});
+        const Entry brick = bricks_[brick_index({bx, by, bz})];
         for (int z = a.z; z <= b.z; ++z)
           for (int y = a.y; y <= b.y; ++y)
             for (int x = a.x; x <= b.x; ++x) {
@@ -198,7 +209,7 @@ BrickGrid::Range BrickGrid::range(Vec3i first, Vec3i last) const {
               const double weight = (x == a.x || x == b.x ? 0.5 : 1) *
                                     (y == a.y || y == b.y ? 0.5 : 1) *
                                     (z == a.z || z == b.z ? 0.5 : 1);
-              const float value = v[static_cast<size_t>((z * side + y) * side + x)];
+              const float value = sample(brick, (z * side + y) * side + x);
               range.max = std::max(range.max, value);
               sum += weight * double{value};
             }
@@ -211,7 +222,8 @@ BrickGrid::Range BrickGrid::range(Vec3i first, Vec3i last) const {
 }
 
 size_t BrickGrid::memory() const {
-  return values_.size() * sizeof(float) + bricks_.size() * sizeof(uint32_t);
+  return values_.size() * sizeof(float) + codes_.size() * sizeof(uint16_t) +
+         bricks_.size() * sizeof(Entry);
 }
 
 }  // namespace tyndall

@@ -24,6 +24,11 @@ float EmissionLookup::Field::operator()(Vec3 p) const {
   return box.contains(p_grid) ? grid->interpolate(p_grid) : 0;
 }
 
+size_t EmissionLookup::memory() const {
+  return (scale_ ? scale_->grid->memory() : 0) +
+         (temperature_ ? temperature_->grid->memory() : 0);
+}
+
 Rgb EmissionLookup::factor(Vec3 p) const {
   const float scale = scale_ ? (*scale_)(p) : 1;
   if (scale == 0) return Rgb(0);

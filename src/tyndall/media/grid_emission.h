@@ -30,6 +30,7 @@ class EmissionLookup {
 
   /// The factor of Le at a point of world space.
   Rgb factor(Vec3 p) const;
+  size_t memory() const;  ///< of the grids [bytes]
 
  private:
   // A grid that can be looked up in world space.

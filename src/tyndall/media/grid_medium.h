@@ -83,6 +83,10 @@ class GridMedium {
     return tyndall::is_grey(properties_.sigma_a) && tyndall::is_grey(properties_.sigma_s);
   }
   const PhaseFunction& phase() const { return phase_; }
+  size_t memory() const {
+    return density_->memory() + majorants_->memory() +
+           (emission_ ? emission_->memory() : 0);
+  }
   /// Of the box; empty if the medium is.
   Bounds3 world_bounds() const { return world_bounds_; }
   /// Where the medium is, in the space of its samples; empty if it is nowhere.

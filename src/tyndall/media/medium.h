@@ -21,6 +21,7 @@ namespace tyndall {
 ///   MediumProperties at(Vec3 p) const;                     p in world space
 ///   M::Segments segments(Ray ray, float t_max) const;      world space, in order, disjoint
 ///   bool is_emissive() const;  bool is_grey() const;       grey: all channels equal
+///   size_t memory() const;                                 of its grids [bytes]
 ///   const PhaseFunction& phase() const;
 /// Segments has  bool next(MediumSegment&)  that yields segments until it returns false;
 /// what no segment covers is empty space.
@@ -47,6 +48,10 @@ class Medium {
     return visit([](const auto& m) { return m.is_grey(); });
   }
   bool is_homogeneous() const { return std::holds_alternative<HomogeneousMedium>(medium_); }
+  /// Of the grids, which copies share; zero if there are none [bytes].
+  size_t memory() const {
+    return visit([](const auto& m) { return m.memory(); });
+  }
   const PhaseFunction& phase() const {
     return visit([](const auto& m) -> const PhaseFunction& { return m.phase(); });
   }

@@ -93,6 +93,8 @@ NanoVdbEntry read_entry(std::ifstream& file) {
   const uint32_t name_size = r.at<uint32_t>(136);
   if (name_size > longest_name) throw std::runtime_error("its directory is damaged");
   entry.info.name = Record(file, name_size).text();
+  constexpr std::array<const char*, 3> codecs{"none", "zip", "blosc"};
+  if (entry.codec < codecs.size()) entry.info.compression = codecs[entry.codec];
   return entry;
 }
 

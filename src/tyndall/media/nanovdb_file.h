@@ -23,6 +23,11 @@ struct NanoVdbEntry {
 /// The directory of a .nvdb file. Throws std::runtime_error without the file's name.
 std::vector<NanoVdbEntry> read_nanovdb_directory(std::ifstream& file);
 
+/// Fills in the least and the largest value, if the grid says them. Throws
+/// std::runtime_error without the file's name.
+void read_nanovdb_range(std::ifstream& file, const NanoVdbEntry& entry,
+                        VolumeGridInfo& info);
+
 /// Reads one grid. Throws std::runtime_error without the file's name.
 PlacedGrid read_nanovdb_grid(std::ifstream& file, const NanoVdbEntry& entry);
 

@@ -1,100 +1,152 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <blosc.h>
 #include <fmt/format.h>
 #include <nanovdb/NanoVDB.h>
-#include <zlib.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <cstring>
-#include <memory>
-#include <new>
 #include <stdexcept>
+#include <type_traits>
 
 #include "tyndall/media/nanovdb_file.h"
+#include "tyndall/media/nanovdb_stream.h"
+#include "tyndall/media/sparse_memory.h"
 #include "tyndall/media/volume_bricks.h"
 
 namespace tyndall {
 namespace {
 
-constexpr std::align_val_t alignment{NANOVDB_DATA_ALIGNMENT};
+// Whether all nodes that a damaged tree points to lie within its `size` bytes.
+template <typename Build>
+class TreeCheck {
+  using Tree = typename nanovdb::NanoGrid<Build>::TreeType;
+  using Root = typename Tree::RootType;
+  using Leaf = typename Tree::LeafNodeType;
 
-struct AlignedDelete {
-  void operator()(std::byte* p) const { ::operator delete[](p, alignment); }
+ public:
+  TreeCheck(const std::byte* begin, size_t size) : begin_(begin), size_(size) {}
+
+  bool is_sound(const nanovdb::NanoGrid<Build>& grid) const {
+    const Root& root = grid.tree().root();
+    if (!holds(&root, sizeof(Root))) return false;
+    const uint64_t tiles = root.data()->mTableSize;
+    if (tiles > size_ / 8 || !holds(&root, Root::memUsage(root.data()->mTableSize)))
+      return false;
+    for (uint32_t i = 0; i < tiles; ++i) {
+      const auto* tile = root.data()->tile(i);
+      if (tile->isChild() && !is_sound(*root.data()->getChild(tile))) return false;
+    }
+    return true;
+  }
+
+ private:
+  bool holds(const void* node, uint64_t size) const {
+    const uintptr_t at = reinterpret_cast<uintptr_t>(node),
+                    begin = reinterpret_cast<uintptr_t>(begin_);
+    return at >= begin && at - begin <= size_ && size <= size_ - (at - begin) &&
+           (at - begin) % NANOVDB_DATA_ALIGNMENT == 0;
+  }
+
+  template <typename Node>
+  bool is_sound(const Node& node) const {
+    if (!holds(&node, sizeof(Node))) return false;
+    if constexpr (std::is_same_v<Node, Leaf>) {
+      return holds(&node, node.data()->memUsage());
+    } else {
+      for (auto i = node.data()->mChildMask.beginOn(); i; ++i)
+        if (!is_sound(*node.data()->getChild(*i))) return false;
+      return true;
+    }
+  }
+
+  const std::byte* begin_;
+  size_t size_;
 };
 
-// The memory image of a grid.
-struct GridBytes {
-  std::unique_ptr<std::byte[], AlignedDelete> data;
-  size_t size;
-};
-
-GridBytes allocate(size_t size) {
-  return {std::unique_ptr<std::byte[], AlignedDelete>(
-              static_cast<std::byte*>(::operator new[](size, alignment))),
-          size};
-}
-
-void read_bytes(std::ifstream& file, void* to, uint64_t size) {
-  if (!file.read(static_cast<char*>(to), static_cast<std::streamsize>(size)))
-    throw std::runtime_error("the file ends within a grid");
-}
-
-// A packed block: its size, then its bytes. `left` counts down what the directory promised.
-std::vector<char> read_block(std::ifstream& file, uint64_t& left) {
-  uint64_t size = 0;
-  if (left < sizeof size) throw std::runtime_error("a grid is damaged");
-  read_bytes(file, &size, sizeof size);
-  left -= sizeof size;
-  if (size > left) throw std::runtime_error("a grid is damaged");
-  std::vector<char> block(size);
-  read_bytes(file, block.data(), size);
-  left -= size;
-  return block;
-}
-
-void unpack_zlib(std::ifstream& file, uint64_t left, const GridBytes& to) {
-  const std::vector<char> block = read_block(file, left);
-  uLongf size = to.size;
-  const int status = uncompress(reinterpret_cast<Bytef*>(to.data.get()), &size,
-                                reinterpret_cast<const Bytef*>(block.data()), block.size());
-  if (status != Z_OK || size != to.size) throw std::runtime_error("a grid is damaged");
-}
-
-void unpack_blosc(std::ifstream& file, uint64_t left, const GridBytes& to) {
-  constexpr size_t chunk = size_t{1} << 30;  // as NanoVDB splits larger grids
-  for (size_t done = 0; done < to.size;) {
-    const size_t expected = std::min(chunk, to.size - done);
-    const std::vector<char> block = read_block(file, left);
-    size_t size = 0;
-    if (blosc_cbuffer_validate(block.data(), block.size(), &size) != 0 || size != expected)
+// The memory image of a grid. Its directory is held; of its leaves, only those that the
+// bricks in hand touch.
+class GridImage {
+ public:
+  GridImage(std::ifstream& file, const NanoVdbEntry& entry)
+      : file_(file), entry_(entry), memory_(size_of(entry)) {
+    NanoVdbStream stream(file, entry);
+    stream.read({memory_.data(), header_size});
+    const auto& header = *reinterpret_cast<const nanovdb::GridData*>(memory_.data());
+    if (header.mMagic != NANOVDB_MAGIC_NUMBER || header.mGridSize > memory_.size() ||
+        static_cast<uint32_t>(header.mGridType) != entry.type)
       throw std::runtime_error("a grid is damaged");
-    const int count = blosc_decompress_ctx(block.data(), to.data.get() + done, expected, 1);
-    if (count != static_cast<int>(expected)) throw std::runtime_error("a grid is damaged");
-    done += expected;
   }
-}
 
-GridBytes unpack(std::ifstream& file, const NanoVdbEntry& entry) {
-  // No codec packs better than this; a larger size is damage, not data.
-  constexpr uint64_t best_ratio = 4096;
-  if (entry.info.memory / best_ratio > entry.packed_size ||
-      entry.info.memory < sizeof(nanovdb::GridData))
-    throw std::runtime_error("its directory is damaged");
-  file.seekg(static_cast<std::streamoff>(entry.offset));
-  GridBytes bytes = allocate(entry.info.memory);
-  if (entry.codec == 0) {
-    if (entry.packed_size < bytes.size)
-      throw std::runtime_error("its directory is damaged");
-    read_bytes(file, bytes.data.get(), bytes.size);
-  } else if (entry.codec == 1) {
-    unpack_zlib(file, entry.packed_size, bytes);
-  } else if (entry.codec == 2) {
-    unpack_blosc(file, entry.packed_size, bytes);
-  } else {
-    throw std::runtime_error(fmt::format("unknown compression {}", entry.codec));
+  template <typename Build>
+  const nanovdb::NanoGrid<Build>& grid() {
+    return *reinterpret_cast<const nanovdb::NanoGrid<Build>*>(memory_.data());
   }
-  return bytes;
-}
+
+  // Reads all but the leaves, or all if leaves do not lie in a row
+  // or cannot be read one by one.
+  template <typename Build>
+  void read_directory() {
+    using Leaf = typename nanovdb::NanoGrid<Build>::TreeType::LeafNodeType;
+    const auto& header = grid<Build>();
+    directory_size_ = memory_.size();
+    // What Blosc packed it unpacks in one go.
+    const bool is_stream = entry_.codec != 2;
+    if (is_stream && header.template isSequential<Leaf>() &&
+        header.tree().nodeCount(0) > 0) {
+      leaf_count_ = header.tree().nodeCount(0);
+      directory_size_ = static_cast<size_t>(
+          reinterpret_cast<const std::byte*>(header.tree().template getFirstNode<Leaf>()) -
+          memory_.data());
+      if (directory_size_ < header_size || directory_size_ > memory_.size() ||
+          (memory_.size() - directory_size_) / sizeof(Leaf) < leaf_count_)
+        throw std::runtime_error("a grid is damaged");
+    }
+    NanoVdbStream(file_, entry_).read({memory_.data(), directory_size_});
+    if (!TreeCheck<Build>(memory_.data(), memory_.size()).is_sound(grid<Build>()))
+      throw std::runtime_error("a grid is damaged");
+  }
+
+  // Reads the leaves of voxels [first, last] along x in place of all others.
+  template <typename Build>
+  void read_leaves(int first, int last) {
+    using Leaf = typename nanovdb::NanoGrid<Build>::TreeType::LeafNodeType;
+    if (leaf_count_ == 0) return;
+    std::byte* begin = memory_.data() + directory_size_;
+    memory_.release(directory_size_, memory_.size());
+    NanoVdbStream stream(file_, entry_);
+    stream.skip(directory_size_);
+    alignas(NANOVDB_DATA_ALIGNMENT) std::array<std::byte, sizeof(Leaf)> bytes;
+    for (uint32_t i = 0; i < leaf_count_; ++i) {
+      stream.read(bytes);
+      const auto& leaf = *reinterpret_cast<const Leaf*>(bytes.data());
+      const int x = leaf.origin()[0];
+      if (x + 7 >= first && x <= last)
+        std::memcpy(begin + size_t{i} * sizeof(Leaf), bytes.data(), bytes.size());
+    }
+    stream.skip(memory_.size() - directory_size_ - leaf_count_ * sizeof(Leaf));
+    stream.check_end();
+  }
+
+ private:
+  static constexpr size_t header_size =
+      sizeof(nanovdb::GridData) + sizeof(nanovdb::TreeData<3>);
+
+  static size_t size_of(const NanoVdbEntry& entry) {
+    // No codec packs better than this; a larger size is damage, not data.
+    constexpr uint64_t best_ratio = 4096;
+    if (entry.info.memory < header_size ||
+        entry.info.memory / best_ratio > entry.packed_size)
+      throw std::runtime_error("its directory is damaged");
+    return entry.info.memory;
+  }
+
+  std::ifstream& file_;
+  const NanoVdbEntry& entry_;
+  SparseMemory memory_;
+  size_t directory_size_ = 0;
+  uint32_t leaf_count_ = 0;  // 0: they were read with the directory
+};
 
 // 8^3 voxels: a leaf, or a tile of one value.
 template <typename Build>
@@ -110,9 +162,33 @@ struct Block {
   }
 };
 
+// Reads the leaves for the bricks that are asked for, a sixth of all at a time: each time
+// the whole grid is unpacked anew.
 template <typename Build>
-PlacedGrid convert(const GridBytes& bytes) {
-  const auto& grid = *reinterpret_cast<const nanovdb::NanoGrid<Build>*>(bytes.data.get());
+BrickGrid::Prepare leaf_reader(GridImage& image, const BrickLayout& layout) {
+  return [&image, layout, ready = 0](int first, int last) mutable {
+    if (first < ready) return;
+    constexpr int parts = 6;
+    ready = std::max(last, first + (layout.brick_count.x + parts - 1) / parts);
+    const auto voxel = [&](int brick) { return layout.origin.x + brick * BrickGrid::edge; };
+    image.template read_leaves<Build>(voxel(first), voxel(ready));
+  };
+}
+
+Matrix4 medium_from_voxel(const nanovdb::Map& map) {
+  Matrix4 m{};
+  for (size_t i = 0; i < 3; ++i) {
+    for (size_t j = 0; j < 3; ++j) m[i][j] = static_cast<float>(map.mMatD[3 * i + j]);
+    m[i][3] = static_cast<float>(map.mVecD[i]);
+  }
+  m[3][3] = 1;
+  return m;
+}
+
+template <typename Build>
+PlacedGrid convert(GridImage& image) {
+  image.read_directory<Build>();
+  const auto& grid = image.grid<Build>();
   const auto& box = grid.indexBBox();
   if (box.min()[0] > box.max()[0]) return empty_grid();
   const BrickLayout layout = lay_out_bricks({box.min()[0], box.min()[1], box.min()[2]},
@@ -126,41 +202,52 @@ PlacedGrid convert(const GridBytes& bytes) {
       return Block<Build>{leaf, has_tile ? static_cast<float>(root.getValue(at)) : 0};
     });
   };
-  const nanovdb::Map& map = grid.map();
-  Matrix4 m{};
-  for (size_t i = 0; i < 3; ++i) {
-    for (size_t j = 0; j < 3; ++j) m[i][j] = static_cast<float>(map.mMatD[3 * i + j]);
-    m[i][3] = static_cast<float>(map.mVecD[i]);
-  }
-  m[3][3] = 1;
-  return place_bricks(layout, m, source);
+  return place_bricks(layout, medium_from_voxel(grid.map()), source,
+                      leaf_reader<Build>(image, layout));
 }
 
-}  // namespace
+template <typename Build>
+void add_range(GridImage& image, VolumeGridInfo& info) {
+  image.read_directory<Build>();
+  const auto& grid = image.grid<Build>();
+  if (!grid.hasMinMax() || info.active_voxels == 0) return;
+  info.min = static_cast<float>(grid.tree().root().minimum());
+  info.max = static_cast<float>(grid.tree().root().maximum());
+}
 
-PlacedGrid read_nanovdb_grid(std::ifstream& file, const NanoVdbEntry& entry) {
-  const GridBytes bytes = unpack(file, entry);
-  const auto& header = *reinterpret_cast<const nanovdb::GridData*>(bytes.data.get());
-  if (header.mMagic != NANOVDB_MAGIC_NUMBER || header.mGridSize > bytes.size ||
-      static_cast<uint32_t>(header.mGridType) != entry.type)
-    throw std::runtime_error("a grid is damaged");
-  switch (header.mGridType) {
+// Calls f with a value of the grid's number type.
+template <typename F>
+auto with_type(const NanoVdbEntry& entry, F&& f) {
+  switch (static_cast<nanovdb::GridType>(entry.type)) {
     case nanovdb::GridType::Float:
-      return convert<float>(bytes);
+      return f(float{});
     case nanovdb::GridType::Double:
-      return convert<double>(bytes);
+      return f(double{});
     case nanovdb::GridType::Fp4:
-      return convert<nanovdb::Fp4>(bytes);
+      return f(nanovdb::Fp4{});
     case nanovdb::GridType::Fp8:
-      return convert<nanovdb::Fp8>(bytes);
+      return f(nanovdb::Fp8{});
     case nanovdb::GridType::Fp16:
-      return convert<nanovdb::Fp16>(bytes);
+      return f(nanovdb::Fp16{});
     case nanovdb::GridType::FpN:
-      return convert<nanovdb::FpN>(bytes);
+      return f(nanovdb::FpN{});
     default:
       throw std::runtime_error(
           fmt::format("grids of type {} hold no density", entry.info.type));
   }
+}
+
+}  // namespace
+
+void read_nanovdb_range(std::ifstream& file, const NanoVdbEntry& entry,
+                        VolumeGridInfo& info) {
+  GridImage image(file, entry);
+  with_type(entry, [&](auto type) { add_range<decltype(type)>(image, info); });
+}
+
+PlacedGrid read_nanovdb_grid(std::ifstream& file, const NanoVdbEntry& entry) {
+  GridImage image(file, entry);
+  return with_type(entry, [&](auto type) { return convert<decltype(type)>(image); });
 }
 
 }  // namespace tyndall

@@ -44,28 +44,36 @@ void skip_metadata(std::ifstream& file) {
 
 }  // namespace
 
-void check_openvdb_size(std::ifstream& file) {
+std::vector<OpenVdbEntry> read_openvdb_directory(std::ifstream& file) {
   file.seekg(0, std::ios::end);
   const int64_t size = file.tellg();
   file.seekg(8);
   const uint32_t version = read<uint32_t>(file);
   skip(file, 8);  // version of the library
   const bool has_offsets = read<char>(file) != 0;
-  if (version < oldest_version || version > newest_version || !has_offsets) return;
+  std::vector<OpenVdbEntry> entries;
+  if (version < oldest_version || version > newest_version || !has_offsets) return entries;
   skip(file, 36);  // identifier
   skip_metadata(file);
   for (uint32_t count = read<uint32_t>(file); count > 0; --count) {
     const std::string name = read_string(file);
     read_string(file);  // type
     read_string(file);  // the grid that this one is an instance of
-    skip(file, 16);     // where the grid and its voxels begin
+    const int64_t begin = read<int64_t>(file);
+    skip(file, 8);  // where the voxels begin
     const int64_t end = read<int64_t>(file);
+    entries.push_back({name.substr(0, name.find('\x1e')), ""});
     if (end > size)
       throw std::runtime_error(
           fmt::format("it is truncated: grid \"{}\" ends at byte {} of {}",
-                      name.substr(0, name.find('\x1e')), end, size));
+                      entries.back().name, end, size));
+    file.seekg(begin);
+    constexpr uint32_t zip = 1, blosc = 4;
+    const uint32_t flags = read<uint32_t>(file);
+    entries.back().compression = flags & blosc ? "blosc" : flags & zip ? "zip" : "none";
     file.seekg(end);
   }
+  return entries;
 }
 
 }  // namespace tyndall

@@ -23,7 +23,8 @@ auto with_file(const std::filesystem::path& path, F&& f) {
   static_cast<void>(is_initialized);
   try {
     openvdb::io::File file(path.string());
-    file.open(/*delayLoad=*/false);
+    file.setCopyMaxBytes(0);
+    file.open(/*delayLoad=*/true);
     return f(file);
   } catch (const openvdb::Exception& e) {
     throw std::runtime_error(e.what());
@@ -37,7 +38,7 @@ Vec3 to_vec(const openvdb::Vec3d& v) {
 
 template <typename GridType>
 void add_range(const openvdb::GridBase& base, VolumeGridInfo& info) {
-  if (!base.isType<GridType>()) return;
+  if (!base.isType<GridType>() || base.activeVoxelCount() == 0) return;
   info.min = infinity;
   info.max = -infinity;
   for (auto it = static_cast<const GridType&>(base).cbeginValueOn(); it; ++it) {
@@ -72,13 +73,13 @@ VolumeGridInfo make_info(const openvdb::GridBase& grid) {
   info.last = to_vec(box.max());
   info.voxel_size = to_vec(grid.voxelSize());
   info.active_voxels = grid.activeVoxelCount();
-  info.memory = grid.memUsage();
+  add_range<openvdb::FloatGrid>(grid, info);
+  add_range<openvdb::DoubleGrid>(grid, info);
+  info.memory = grid.memUsage();  // with the values, which are read when they are looked at
   if (box.empty()) return info;
   const openvdb::BBoxd real(box.min().asVec3d() - 0.5, box.max().asVec3d() + 0.5);
   const openvdb::BBoxd world = grid.transform().indexToWorld(real);
   info.bounds = {to_vec(world.min()), to_vec(world.max())};
-  add_range<openvdb::FloatGrid>(grid, info);
-  add_range<openvdb::DoubleGrid>(grid, info);
   return info;
 }
 
@@ -110,13 +111,25 @@ Matrix4 medium_from_voxel(const openvdb::GridBase& grid) {
   return m;
 }
 
+template <typename Tree>
+void drop_leaves_below(Tree& tree, int x) {
+  using Leaf = typename Tree::LeafNodeType;
+  std::vector<openvdb::Coord> origins;
+  for (auto leaf = tree.cbeginLeaf(); leaf; ++leaf)
+    if (leaf->origin().x() < x) origins.push_back(leaf->origin());
+  for (const openvdb::Coord& origin : origins)
+    delete tree.template stealNode<Leaf>(origin, 0, false);
+}
+
+// The grid's values are read when they are first looked at; leaves that lie behind the
+// bricks in hand are dropped.
 template <typename GridType>
-PlacedGrid convert(const GridType& grid) {
+PlacedGrid convert(GridType& grid) {
   using Tree = typename GridType::TreeType;
   const openvdb::CoordBBox box = grid.evalActiveVoxelBoundingBox();
   if (box.empty()) return empty_grid();
   const BrickLayout layout = lay_out_bricks(to_vec(box.min()), to_vec(box.max()));
-  const Tree& tree = grid.tree();
+  const Tree& tree = grid.constTree();
   const auto source = [&](Vec3i brick, BrickGrid::Samples samples) {
     return fill_brick(layout, brick, samples, [&](Vec3i voxel) {
       const openvdb::Coord at(voxel.x, voxel.y, voxel.z);
@@ -126,7 +139,10 @@ PlacedGrid convert(const GridType& grid) {
           leaf, has_tile ? static_cast<float>(tree.getValue(at)) : 0};
     });
   };
-  return place_bricks(layout, medium_from_voxel(grid), source);
+  const auto drop_leaves = [&](int first, int /*last*/) {
+    drop_leaves_below(grid.tree(), layout.origin.x + first * BrickGrid::edge);
+  };
+  return place_bricks(layout, medium_from_voxel(grid), source, drop_leaves);
 }
 
 }  // namespace

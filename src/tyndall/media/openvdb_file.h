@@ -11,9 +11,15 @@
 
 namespace tyndall {
 
-/// Checks that a .vdb file is as long as its directory says: the library reads truncated
-/// files without a word. Throws std::runtime_error without the file's name.
-void check_openvdb_size(std::ifstream& file);
+/// What the directory of a .vdb file says of a grid.
+struct OpenVdbEntry {
+  std::string name, compression;
+};
+
+/// The directory of a .vdb file, empty for formats older than 222. Throws
+/// std::runtime_error without the file's name, also if the file is shorter than the
+/// directory says: the library reads truncated files without a word.
+std::vector<OpenVdbEntry> read_openvdb_directory(std::ifstream& file);
 
 /// The grids of a .vdb file. Throws std::runtime_error without the file's name.
 std::vector<VolumeGridInfo> list_openvdb_grids(const std::filesystem::path& path);

@@ -90,6 +90,10 @@ class RgbGridMedium {
   bool is_emissive() const { return Le_ != nullptr; }
   bool is_grey() const { return false; }
   const PhaseFunction& phase() const { return phase_; }
+  size_t memory() const {
+    return sigma_t_->memory() + sigma_s_->memory() + (Le_ ? Le_->memory() : 0) +
+           majorants_->r.memory() + majorants_->g.memory() + majorants_->b.memory();
+  }
   Bounds3 world_bounds() const { return world_bounds_; }
   /// Where the medium is, in the space of its samples; empty if it is nowhere.
   const Bounds3& grid_box() const { return box_; }
@@ -106,6 +110,7 @@ class RgbGridMedium {
     Rgb operator()(Vec3 p_grid) const {
       return {r.interpolate(p_grid), g.interpolate(p_grid), b.interpolate(p_grid)};
     }
+    size_t memory() const { return r.memory() + g.memory() + b.memory(); }
   };
 
   static std::shared_ptr<const Field> make_field(const RgbGrid& grid);

@@ -11,8 +11,8 @@
 namespace tyndall {
 namespace {
 
-// 256 MiB of table: 3.4e10 voxels.
-constexpr int64_t max_bricks = int64_t{1} << 26;
+// 256 MiB of table: 1.7e10 voxels.
+constexpr int64_t max_bricks = int64_t{1} << 25;
 
 // The bricks along one axis; wide numbers, for anything may stand in a file.
 struct Axis {
@@ -44,10 +44,12 @@ BrickLayout lay_out_bricks(Vec3i first, Vec3i last) {
 }
 
 PlacedGrid place_bricks(const BrickLayout& layout, const Matrix4& medium_from_voxel,
-                        const BrickGrid::Source& source) {
+                        const BrickGrid::Source& source,
+                        const BrickGrid::Prepare& prepare) {
   const std::optional<Transform> map = Transform::from_matrix(medium_from_voxel);
   if (!map) throw std::runtime_error("the grid's transform is not invertible");
-  PlacedGrid placed{.grid = std::make_shared<BrickGrid>(layout.brick_count, source),
+  PlacedGrid placed{.grid = std::make_shared<BrickGrid>(
+                        layout.brick_count, source, BrickGrid::Precision::compact, prepare),
                     .medium_from_grid =
                         *map * Transform::translate({static_cast<float>(layout.origin.x),
                                                      static_cast<float>(layout.origin.y),

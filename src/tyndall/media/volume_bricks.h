@@ -24,9 +24,11 @@ struct BrickLayout {
 /// Throws std::runtime_error if their box is too large for a table of its bricks.
 BrickLayout lay_out_bricks(Vec3i first, Vec3i last);
 
-/// Builds the grid. Throws std::runtime_error if the transform is not invertible.
+/// Builds the grid, a compact one. Throws std::runtime_error if the transform is not
+/// invertible.
 PlacedGrid place_bricks(const BrickLayout& layout, const Matrix4& medium_from_voxel,
-                        const BrickGrid::Source& source);
+                        const BrickGrid::Source& source,
+                        const BrickGrid::Prepare& prepare = {});
 
 /// A grid without samples.
 PlacedGrid empty_grid();

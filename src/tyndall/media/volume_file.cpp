@@ -26,7 +26,7 @@ Container container_of(std::ifstream& file) {
   file.read(head.data(), head.size());
   file.clear();
   if (head == openvdb_magic) {
-    check_openvdb_size(file);
+    read_openvdb_directory(file);
     return Container::openvdb;
   }
   if (std::equal(nanovdb_magic.begin(), nanovdb_magic.end(), head.begin()))
@@ -94,8 +94,19 @@ std::vector<VolumeGridInfo> infos_of(const std::vector<NanoVdbEntry>& entries) {
 
 std::vector<VolumeGridInfo> list_volume_grids(const std::filesystem::path& path) {
   return with_volume(path, [&](std::ifstream& file, Container container) {
-    return container == Container::openvdb ? list_openvdb_grids(path)
-                                           : infos_of(read_nanovdb_directory(file));
+    std::vector<VolumeGridInfo> infos;
+    if (container == Container::openvdb) {
+      infos = list_openvdb_grids(path);
+      for (const OpenVdbEntry& entry : read_openvdb_directory(file))
+        for (VolumeGridInfo& info : infos)
+          if (info.name == entry.name) info.compression = entry.compression;
+    } else {
+      for (const NanoVdbEntry& entry : read_nanovdb_directory(file)) {
+        infos.push_back(entry.info);
+        if (entry.info.is_scalar) read_nanovdb_range(file, entry, infos.back());
+      }
+    }
+    return infos;
   });
 }
 

@@ -24,8 +24,9 @@ struct VolumeGridInfo {
   Bounds3 bounds;     ///< of the active voxels, in the file's space
   Vec3 voxel_size;    ///< in the file's space
   uint64_t active_voxels;
-  uint64_t memory;  ///< uncompressed, as the file stores it [bytes]
-  float min, max;   ///< of the active voxels; NaN if not known
+  uint64_t memory;            ///< uncompressed, as the file stores it [bytes]
+  float min, max;             ///< of the active voxels; NaN if not known
+  std::string compression{};  ///< in the file: "none", "zip", "blosc"; empty if not known
 };
 
 /// The grids of a .vdb or .nvdb file, told apart by their contents.

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tyndall/volume_info.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+namespace tyndall::app {
+namespace {
+
+bool is_empty(const VolumeGridInfo& grid) { return grid.first.x > grid.last.x; }
+
+Vec3i voxel_count(const VolumeGridInfo& grid) {
+  if (is_empty(grid)) return {0, 0, 0};
+  return {grid.last.x - grid.first.x + 1, grid.last.y - grid.first.y + 1,
+          grid.last.z - grid.first.z + 1};
+}
+
+std::string grid_text(const VolumeGridInfo& grid) {
+  const Vec3i n = voxel_count(grid);
+  const Vec3 s = grid.voxel_size, a = grid.bounds.min, b = grid.bounds.max;
+  std::string text =
+      fmt::format("  \"{}\": {}{}\n", grid.name, grid.type,
+                  grid.is_scalar ? "" : ", which cannot be a density or a temperature");
+  text += fmt::format("    voxels    {} active in {} x {} x {}\n", grid.active_voxels, n.x,
+                      n.y, n.z);
+  text += fmt::format("    voxel     {:g} x {:g} x {:g}\n", s.x, s.y, s.z);
+  if (!is_empty(grid))
+    text += fmt::format("    bounds    ({:g}, {:g}, {:g}) to ({:g}, {:g}, {:g})\n", a.x,
+                        a.y, a.z, b.x, b.y, b.z);
+  if (std::isfinite(grid.min) && std::isfinite(grid.max))
+    text += fmt::format("    values    {:g} to {:g}\n", grid.min, grid.max);
+  return text + fmt::format("    memory    {}, compression {}\n", short_bytes(grid.memory),
+                            grid.compression);
+}
+
+nlohmann::ordered_json triple(Vec3 v) { return {v.x, v.y, v.z}; }
+nlohmann::ordered_json triple(Vec3i v) { return {v.x, v.y, v.z}; }
+nlohmann::ordered_json number(float x) {
+  return std::isfinite(x) ? nlohmann::ordered_json(x) : nlohmann::ordered_json();
+}
+
+nlohmann::ordered_json grid_json(const VolumeGridInfo& grid) {
+  nlohmann::ordered_json json = {{"name", grid.name},
+                                 {"type", grid.type},
+                                 {"is_scalar", grid.is_scalar},
+                                 {"active_voxels", grid.active_voxels},
+                                 {"voxels", triple(voxel_count(grid))},
+                                 {"voxel_size", triple(grid.voxel_size)},
+                                 {"bounds", nullptr},
+                                 {"min", number(grid.min)},
+                                 {"max", number(grid.max)},
+                                 {"memory_bytes", grid.memory},
+                                 {"compression", grid.compression}};
+  if (!is_empty(grid)) json["bounds"] = {triple(grid.bounds.min), triple(grid.bounds.max)};
+  return json;
+}
+
+}  // namespace
+
+std::string short_bytes(uint64_t bytes) {
+  if (bytes < 1000) return fmt::format("{} B", bytes);
+  const double value = static_cast<double>(bytes);
+  if (bytes < 1000'000) return fmt::format("{:.3g} kB", value * 1e-3);
+  if (bytes < 1000'000'000) return fmt::format("{:.3g} MB", value * 1e-6);
+  return fmt::format("{:.3g} GB", value * 1e-9);
+}
+
+std::string volume_text(const std::string& path, const std::vector<VolumeGridInfo>& grids) {
+  std::string text = fmt::format("{}: {} in the file, {} grid{}\n", path,
+                                 short_bytes(std::filesystem::file_size(path)),
+                                 grids.size(), grids.size() == 1 ? "" : "s");
+  for (const VolumeGridInfo& grid : grids) text += grid_text(grid);
+  return text;
+}
+
+nlohmann::ordered_json volume_json(const std::string& path,
+                                   const std::vector<VolumeGridInfo>& grids) {
+  nlohmann::ordered_json json = {{"file", path},
+                                 {"kind", "volume"},
+                                 {"file_bytes", std::filesystem::file_size(path)},
+                                 {"grids", nlohmann::ordered_json::array()}};
+  for (const VolumeGridInfo& grid : grids) json["grids"].push_back(grid_json(grid));
+  return json;
+}
+
+}  // namespace tyndall::app

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+// Volume files that are empty, damaged, absurd or huge: an error that says what is wrong,
+// or a medium that makes sense.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+
+#include "image/temporary_folder.h"
+#include "support/volume_writer.h"
+#include "tyndall/media/grid_medium.h"
+#include "tyndall/media/ratio_tracking.h"
+#include "tyndall/media/volume_file.h"
+
+namespace tyndall {
+namespace {
+
+constexpr std::string_view density[] = {"density"};
+
+// The four kinds of file that there are: a writer and a name.
+struct Format {
+  const char* name;
+  void (*write)(const std::string& path, const std::vector<test::TestGrid>& grids);
+};
+const Format formats[] = {
+    {"v.vdb", [](const std::string& p, const auto& g) { test::write_vdb(p, g); }},
+    {"none.nvdb", [](const std::string& p, const auto& g) { test::write_nvdb(p, g); }},
+    {"zip.nvdb", [](const std::string& p,
+                    const auto& g) { test::write_nvdb(p, g, test::NvdbCodec::zip); }},
+    {"blosc.nvdb", [](const std::string& p,
+                      const auto& g) { test::write_nvdb(p, g, test::NvdbCodec::blosc); }},
+};
+
+class BadVolumeTest : public testing::TestWithParam<Format> {
+ protected:
+  std::string path() const { return folder_.file(GetParam().name); }
+  void write(const std::vector<test::TestGrid>& grids) const {
+    GetParam().write(path(), grids);
+  }
+  PlacedGrid read() const { return read_volume(path(), density); }
+  std::string complaint() const {
+    const std::string text = message_of([&] { read(); });
+    const std::string start = path() + ": ";
+    return text.starts_with(start) ? text.substr(start.size()) : text;
+  }
+
+ private:
+  TemporaryFolder folder_;
+};
+
+INSTANTIATE_TEST_SUITE_P(Formats, BadVolumeTest, testing::ValuesIn(formats),
+                         [](const auto& instance) {
+                           std::string name = instance.param.name;
+                           return name.substr(0, name.find('.'));
+                         });
+
+GridMedium medium_of(const PlacedGrid& grid, float sigma = 1) {
+  return {grid, Transform(), {Rgb(0), Rgb(sigma), {}}, IsotropicPhase{}};
+}
+
+float transmittance(const GridMedium& medium, const Ray& ray) {
+  RandomStream rng(1);
+  double sum = 0;
+  for (int i = 0; i < 1000; ++i)
+    sum += double{ratio_tracking(medium, ray, infinity, rng).r};
+  return static_cast<float>(sum / 1000);
+}
+
+const Ray along_x{{-100, 4, 4}, {1, 0, 0}};
+
+TEST_P(BadVolumeTest, EmptyGridsAreEmptyMedia) {
+  write({{.voxels = {}}});
+  EXPECT_TRUE(read().grid->is_empty());
+  EXPECT_EQ(transmittance(medium_of(read()), along_x), 1);
+}
+
+TEST_P(BadVolumeTest, NegativeGridsAreEmptyMedia) {
+  write({{.voxels = test::filled_box({0, 0, 0}, {9, 9, 9}, -3)}});
+  EXPECT_TRUE(read().grid->is_empty());
+  EXPECT_GT(read().grid->rejected().negative, 999u);
+  EXPECT_EQ(transmittance(medium_of(read()), along_x), 1);
+}
+
+TEST_P(BadVolumeTest, NumbersThatAreNoneCountAsZero) {
+  for (const float bad : {std::nanf(""), infinity, -infinity, 1e35f}) {
+    std::vector<test::TestVoxel> voxels = test::filled_box({0, 0, 0}, {9, 9, 9}, bad);
+    voxels.push_back({{4, 4, 4}, 2});
+    write({{.voxels = voxels}});
+    const PlacedGrid grid = read();
+    EXPECT_EQ(grid.grid->maximum(), 2);
+    EXPECT_GT(grid.grid->rejected().not_finite, 998u);
+    // A tent of height two and base two.
+    EXPECT_NEAR(transmittance(medium_of(grid), along_x), std::exp(-2.0), 0.03);
+  }
+}
+
+TEST_P(BadVolumeTest, TruncatedFilesSayHowTheyEnd) {
+  write({{.voxels = test::filled_box({0, 0, 0}, {40, 40, 40}, 1)},
+         {.name = "temperature", .voxels = test::filled_box({0, 0, 0}, {9, 9, 9}, 1)}});
+  std::ifstream file(path(), std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  file.close();
+  for (int percent = 0; percent < 100; percent += 3) {
+    std::ofstream(path(), std::ios::binary)
+        << bytes.substr(0, bytes.size() * static_cast<size_t>(percent) / 100);
+    const std::string text = complaint();
+    const bool is_known = text == "it is neither an OpenVDB nor a NanoVDB file" ||
+                          text == "the file ends within its directory" ||
+                          text.starts_with("it is truncated: grid \"");
+    EXPECT_TRUE(is_known) << percent << " %: " << text;
+  }
+}
+
+TEST_P(BadVolumeTest, DamagedBytesNeverCrash) {
+  write({{.voxels = test::filled_box({0, 0, 0}, {20, 20, 20}, 1)}});
+  if (GetParam().name == std::string("v.vdb")) GTEST_SKIP() << "OpenVDB's own business";
+  std::ifstream file(path(), std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  file.close();
+  RandomStream rng(3);
+  for (int i = 0; i < 200; ++i) {
+    std::string damaged = bytes;
+    // Behind the header; a changed name or transform is no damage that could be seen.
+    const size_t at = 300 + rng.next_bits() % (bytes.size() - 300);
+    damaged[at] =
+        static_cast<char>(damaged[at] ^ static_cast<char>(1 + rng.next_bits() % 255));
+    std::ofstream(path(), std::ios::binary) << damaged;
+    const std::string text = complaint();
+    EXPECT_EQ(text.find('\n'), std::string::npos) << text;
+  }
+}
+
+TEST_P(BadVolumeTest, MissingNamesAreAnsweredWithThoseFound) {
+  write({{.name = "smoke", .voxels = test::filled_box({0, 0, 0}, {2, 2, 2}, 1)},
+         {.name = "heat", .voxels = test::filled_box({0, 0, 0}, {2, 2, 2}, 1)}});
+  const std::string text = complaint();
+  const std::string start = "there is no grid \"density\"; the file has ";
+  const bool is_known = text == start + "\"smoke\" (float), \"heat\" (float)" ||
+                        text == start + "\"heat\" (float), \"smoke\" (float)";
+  EXPECT_TRUE(is_known) << text;
+}
+
+// A cube of optical depth one, from the size of a grain of dust to that of a star.
+TEST_P(BadVolumeTest, AbsurdExtentsAreNoTrouble) {
+  // OpenVDB has no voxels below 1.4e-5.
+  const bool is_vdb = GetParam().name == std::string("v.vdb");
+  for (const double size : {is_vdb ? 2e-5 : 1e-7, 1e-3, 1.0, 1e7, 1e8}) {
+    write({{.voxels = test::filled_box({0, 0, 0}, {9, 9, 9}, 1), .voxel_size = size}});
+    const float s = static_cast<float>(size);
+    const GridMedium medium = medium_of(read(), 1 / (10 * s));
+    const Ray ray{{-30 * s, 4.5f * s, 4.5f * s}, {1, 0, 0}};
+    EXPECT_NEAR(transmittance(medium, ray), std::exp(-1.0), 0.04) << size;
+  }
+}
+
+// 2155^3 voxels between two active ones: a table of bricks, and hardly anything else.
+TEST_P(BadVolumeTest, HugeSparseBoxesFit) {
+  write({{.voxels = {{{-1077, -1077, -1077}, 2}, {{1077, 1077, 1077}, 2}}}});
+  const PlacedGrid grid = read();
+  EXPECT_LT(grid.grid->memory(), 200u << 20);
+  const Ray ray{{-1077 - 3, -1077, -1077}, {1, 0, 0}};
+  EXPECT_NEAR(transmittance(medium_of(grid), ray), std::exp(-2.0), 0.03);
+}
+
+TEST_P(BadVolumeTest, AbsurdBoxesAreRefused) {
+  write({{.voxels = {{{-1000000, 0, 0}, 2}, {{1000000, 1000000, 0}, 2}}}});
+  EXPECT_EQ(complaint(),
+            "the active voxels span 2000001 x 1000001 x 1, more than fits in memory");
+}
+
+}  // namespace
+}  // namespace tyndall
