@@ -60,7 +60,7 @@ std::shared_ptr<const RecordCache> lies(const Scene& scene) {
       RandomStream random(hash(key, pass));
       TrainingSample s;
       s.key = key;
-      s.p = (Vec3{random.next_1d(), random.next_1d(), random.next_1d()} * 2 - Vec3(1)) * 3;
+      s.p = (Vec3{random.next_1d(), random.next_1d(), random.next_1d()} * 2 - Vec3{1, 1, 1}) * 3;
       s.light_distance = distance(light, s.p);
       s.light_direction = (light - s.p) / s.light_distance;
       const Vec3 wrong = normalize(Vec3{1, 0.2f, -0.3f});
