@@ -15,7 +15,6 @@ namespace {
 
 constexpr int edge = BrickGrid::edge;
 constexpr int side = BrickGrid::side;
-constexpr size_t brick_size = BrickGrid::brick_size;
 
 Vec3i smaller(Vec3i a, Vec3i b) {
   return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
