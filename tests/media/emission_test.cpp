@@ -4,10 +4,8 @@
 #include <cmath>
 
 #include "media/random_media.h"
-#include "support/statistical_tests.h"
 #include "tyndall/media/blackbody.h"
 #include "tyndall/media/cloud_density.h"
-#include "tyndall/media/emission_distribution.h"
 #include "tyndall/media/grid_medium.h"
 
 namespace tyndall {
@@ -73,74 +71,6 @@ TEST(GridEmissionTest, ColdMediaAreDark) {
   const GridMedium medium(constant(1), Transform(), {Rgb(1), Rgb(0), Rgb(1)},
                           IsotropicPhase{}, emission);
   EXPECT_EQ(medium.at({0.5f, 0.5f, 0.5f}).Le, Rgb(0));
-}
-
-class EmissionDistributionTest : public testing::TestWithParam<Placement> {
- protected:
-  RandomStream rng_{3};
-  Transform world_from_medium_ = random_transform(rng_, GetParam());
-  GridMedium medium_{random_grid(rng_, {40, 20, 10}, GridContent::mostly_empty),
-                     {{-1, 0, 2}, {1, 3, 2.5f}},
-                     world_from_medium_,
-                     {Rgb(0.5f), Rgb(1), {2, 1, 0}},
-                     IsotropicPhase{}};
-  EmissionDistribution distribution_ = *EmissionDistribution::make(Medium(medium_));
-};
-
-INSTANTIATE_TEST_SUITE_P(All, EmissionDistributionTest,
-                         testing::Values(Placement::identity, Placement::sheared,
-                                         Placement::mirrored, Placement::tiny));
-
-// 1 / pdf integrates to the volume of the box, f / pdf to the power, and each point's
-// density is what it was drawn with.
-TEST_P(EmissionDistributionTest, SamplesIntegrateWithTheirPdf) {
-  const Bounds3 box = medium_.grid_box();
-  const Vec3 size = box.diagonal();
-  const Transform& map = medium_.world_from_grid();
-  const double volume =
-      double{size.x * size.y * size.z} *
-      std::abs(double{
-          dot(map.vector({1, 0, 0}), cross(map.vector({0, 1, 0}), map.vector({0, 0, 1})))});
-  RunningMoments volumes, powers, uniform_powers;
-  int disagree = 0;
-  for (int i = 0; i < 200'000; ++i) {
-    const auto s = distribution_.sample(rng_.next_1d(),
-                                        {rng_.next_1d(), rng_.next_1d(), rng_.next_1d()});
-    const MediumProperties at = medium_.at(s.p);
-    volumes.add(1 / double{s.pdf_volume} / volume);
-    powers.add(4 * 3.14159265 * double{at.sigma_a.r * at.Le.r} / double{s.pdf_volume} /
-               volume);
-    const Vec3 p =
-        map.point(box.min + size * Vec3{rng_.next_1d(), rng_.next_1d(), rng_.next_1d()});
-    uniform_powers.add(4 * 3.14159265 * double{medium_.at(p).sigma_a.r * 2});
-    // Points on the border of a cell may be taken for the neighbour's.
-    disagree += std::abs(distribution_.pdf_volume(s.p) / s.pdf_volume - 1) > 1e-3f ? 1 : 0;
-  }
-  EXPECT_GT(z_p_value(volumes, 1), sidak(0.01, 8)) << volumes.mean();
-  EXPECT_GT(welch_p_value(powers, uniform_powers), sidak(0.01, 8));
-  EXPECT_LT(disagree, 200);
-  EXPECT_LT(powers.variance(), 0.3 * uniform_powers.variance());
-  EXPECT_NEAR(double{distribution_.power().r} / volume / uniform_powers.mean(), 1, 0.05);
-  EXPECT_EQ(distribution_.power().b, 0);
-}
-
-TEST_P(EmissionDistributionTest, IsPositiveWhereverTheMediumGlows) {
-  const Bounds3 box = medium_.grid_box();
-  for (int i = 0; i < 10'000; ++i) {
-    const Vec3 u{rng_.next_1d(), rng_.next_1d(), rng_.next_1d()};
-    const Vec3 p = medium_.world_from_grid().point(box.min + box.diagonal() * u);
-    if (medium_.at(p).sigma_a.r == 0) continue;
-    EXPECT_GT(distribution_.pdf_volume(p), 0);
-  }
-}
-
-TEST(GlowingMediaTest, DarkMediaHaveNone) {
-  const GridMedium dark(constant(1), Transform(), {Rgb(1), Rgb(0), Rgb(0)},
-                        IsotropicPhase{});
-  const GridMedium cold(constant(1), Transform(), {Rgb(1), Rgb(0), Rgb(1)},
-                        IsotropicPhase{}, {.scale = {}, .temperature = constant(50)});
-  EXPECT_FALSE(EmissionDistribution::make(Medium(dark)));
-  EXPECT_FALSE(EmissionDistribution::make(Medium(cold)));
 }
 
 TEST(CloudTest, IsWithinItsBoundsAndDenseBelow) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tyndall/integrators/leg.h"
 
+#include "tyndall/media/glow.h"
+
 namespace tyndall {
 namespace {
 
@@ -59,6 +61,24 @@ float Leg::length() {
 const Medium* Leg::end_medium() {
   trace_all();
   return medium_;
+}
+
+Rgb glow_along(Leg& leg, RandomStream& rng) {
+  size_t count = 0;  // of the spans up to the last that glows
+  for (size_t i = 0; const Leg::Span* span = leg.span(i); ++i)
+    if (span->medium && span->medium->is_emissive()) count = i + 1;
+  Rgb sum, T(1);
+  for (size_t i = 0; i < count && !is_black(T); ++i) {
+    const Leg::Span& span = *leg.span(i);
+    if (!span.medium) continue;
+    const Ray rest{leg.ray().at(span.t_min), leg.ray().d};
+    const float length = span.t_max - span.t_min;
+    if (span.medium->is_emissive())
+      sum += estimate_glow(*span.medium, rest, length, rng, T);
+    else
+      T *= estimate_span(*span.medium, rest, length, rng);
+  }
+  return sum;
 }
 
 Passage passage(const Scene& scene, const Ray& ray, float t_max, const Medium* medium,

@@ -57,6 +57,7 @@ void Path::look_at_end(Leg& leg) {
 
 bool Path::advance(Leg& leg) {
   vertex_.reset();
+  add_glow(leg);
   for (size_t i = 0; const Leg::Span* span = leg.span(i); ++i) {
     if (!span->medium) continue;
     medium_ = span->medium;
@@ -95,8 +96,6 @@ std::optional<float> Path::sample_collision(const Ray& ray, const Leg::Span& spa
   const Ray rest{ray.at(span.t_min), ray.d};
   const auto on_collision = [&](float t, const MediumProperties& properties, Rgb majorant,
                                 Rgb relative_transmittance) {
-    if (!is_black(properties.Le))
-      add_volume_emission(properties, relative_transmittance, majorant[hero_]);
     const Rgb sigma_t = properties.sigma_t();
     if (tracking_.next_1d() * majorant[hero_] < sigma_t[hero_]) {
       collide(properties, relative_transmittance);
@@ -129,13 +128,16 @@ void Path::pass(Rgb factor) {
   spectral_ *= factor;
 }
 
-void Path::add_volume_emission(const MediumProperties& properties,
-                               Rgb relative_transmittance, float majorant) {
-  if (!rules_.orders.contains(order_)) return;
-  const Rgb emitted = properties.sigma_a * properties.Le / majorant;
-  // The density of a tentative collision is majorant * transmittance in every channel.
-  result_.L += beta_ * relative_transmittance * emitted /
-               average(spectral_ * relative_transmittance);
+// Of the whole leg: what is expected of walks along it, whatever this one does.
+void Path::add_glow(Leg& leg) {
+  if (!scene_.has_glow() || !rules_.orders.contains(order_)) return;
+  const Rgb Le = glow_along(leg, tracking_);
+  if (is_black(Le)) return;
+  float weight = 1;
+  if (const std::optional<size_t> light = scene_.volume_light();
+      light && !start_.is_specular)
+    weight = hit_weight(*light, scene_.lights()[*light].pdf(start_.p, ray_.d), infinity);
+  add_found_by_walk(beta_ * Le * weight);
 }
 
 void Path::add_surface_emission(const SurfaceHit& hit) {

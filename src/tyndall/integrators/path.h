@@ -68,8 +68,7 @@ class Path {
   std::optional<float> sample_collision(const Ray& ray, const Leg::Span& span);
   void collide(const MediumProperties& properties, Rgb relative_transmittance);
   void pass(Rgb factor);
-  void add_volume_emission(const MediumProperties& properties, Rgb relative_transmittance,
-                           float majorant);
+  void add_glow(Leg& leg);
   void add_surface_emission(const SurfaceHit& hit);
   void add_environment();
   bool set_vertex(const Vertex& vertex, float t);
@@ -87,6 +86,8 @@ class Path {
   };
   Connection connect_to(const Vertex& vertex, const SelectedLight& selected);
   void connect_vertex();
+  Rgb arriving(const SelectedLight& selected, const LightSample& sample, const Ray& shadow,
+               const Medium* medium);
   std::optional<SelectedLight> select_light(Vec3 p, float u) const;
   float light_probability(Vec3 p, size_t light) const;
   bool is_left_to_connections(size_t light);

@@ -30,12 +30,8 @@ Path::Connection Path::connect_to(const Vertex& vertex, const SelectedLight& sel
   const Rgb f = vertex.eval(sample->wi);
   if (is_black(f)) return connection;
   const Ray shadow = vertex.spawn(sample->wi);
-  const float t_max = sample->distance * (1 - shadow_shortening);
-  if (!rules_.sees_through && scene_.is_occluded(shadow, t_max)) return connection;
-  const Medium* medium = vertex.medium_towards(scene_, sample->wi);
-  const Rgb T =
-      transmittance(scene_, shadow, std::min(t_max, far_distance), medium, tracking_);
-  connection.light = f * T * sample->L;
+  connection.light =
+      f * arriving(selected, *sample, shadow, vertex.medium_towards(scene_, sample->wi));
   connection.end = {.light = selected.index,
                     .probability = selected.probability,
                     .pdf = sample->pdf,
@@ -43,6 +39,19 @@ Path::Connection Path::connect_to(const Vertex& vertex, const SelectedLight& sel
                     .to_light = sample->wi,
                     .distance = sample->distance};
   return connection;
+}
+
+// The light that reaches the start of the ray that goes towards it.
+Rgb Path::arriving(const SelectedLight& selected, const LightSample& sample,
+                   const Ray& shadow, const Medium* medium) {
+  if (selected.index == scene_.volume_light()) {
+    Leg leg(scene_, shadow, medium);
+    return glow_along(leg, tracking_);
+  }
+  const float t_max = sample.distance * (1 - shadow_shortening);
+  if (!rules_.sees_through && scene_.is_occluded(shadow, t_max)) return Rgb();
+  return sample.L *
+         transmittance(scene_, shadow, std::min(t_max, far_distance), medium, tracking_);
 }
 
 void Path::estimate_direct() {

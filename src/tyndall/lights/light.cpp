@@ -76,6 +76,12 @@ std::optional<LightSample> draw(const AreaLight& light, Vec3 p, Vec2 u) {
   return if_it_shines({wi, distance, light.Le(s->point, -wi), s->pdf, false});
 }
 
+std::optional<LightSample> draw(const VolumeLight& light, Vec3 p, Vec2 u) {
+  const std::optional<VolumeLight::Direction> s = light.sample(p, u);
+  if (!s) return std::nullopt;
+  return LightSample{s->w, infinity, Rgb(1), s->pdf, false};
+}
+
 LightPoint point_of_delta_light(Vec3 p) {
   LightPoint point{.on = {}, .pdf_area = 1, .is_delta = true};
   point.on.p = p;
@@ -112,6 +118,8 @@ Rgb power_of(const ImageEnvironment& light, float radius) {
                  static_cast<float>(sum[2] / count)};
   return mean * (4 * pi * pi * sqr(radius));
 }
+
+Rgb power_of(const VolumeLight& light, float) { return light.power(); }
 
 Rgb power_of(const AreaLight& light, float) {
   return light.L * (pi * (light.two_sided ? 2.0f : 1.0f) * area(*light.shape));
@@ -153,6 +161,11 @@ std::optional<LightPoint> Light::sample_point(Vec2 u) const {
     return point_of_delta_light(light->p);
   if (const auto* light = std::get_if<SpotLight>(&light_))
     return point_of_delta_light(light->p);
+  if (const auto* light = std::get_if<VolumeLight>(&light_)) {
+    LightPoint point{.on = {}, .pdf_area = 1, .is_delta = false};
+    point.on.p = light->sample_point(u);
+    return point;
+  }
   const auto* light = std::get_if<AreaLight>(&light_);
   if (!light) return std::nullopt;
   const ShapeSample s = sample_area(*light->shape, u);
@@ -174,6 +187,8 @@ std::optional<LightExtent> Light::extent() const {
     return LightExtent{{light->p, light->p}, light->axis, light->cos_total};
   if (const auto* light = std::get_if<AreaLight>(&light_))
     return LightExtent{bounds(*light->shape), {0, 0, 1}, -1};
+  if (const auto* light = std::get_if<VolumeLight>(&light_))
+    return LightExtent{light->bounds(), {0, 0, 1}, -1};
   return std::nullopt;
 }
 
@@ -186,6 +201,11 @@ float Light::pdf(Vec3 wi) const {
   if (std::holds_alternative<ConstantEnvironment>(light_)) return uniform_sphere_pdf();
   const auto* light = std::get_if<ImageEnvironment>(&light_);
   return light ? light->distribution.pdf(image_position(*light, wi)) * inv_4pi : 0;
+}
+
+float Light::pdf(Vec3 from, Vec3 w) const {
+  const auto* light = std::get_if<VolumeLight>(&light_);
+  return light ? light->pdf(from, w) : 0;
 }
 
 Rgb Light::environment(Vec3 w) const {

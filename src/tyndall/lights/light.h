@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tyndall/geometry/shape.h"
+#include "tyndall/lights/volume_light.h"
 #include "tyndall/math/bounds.h"
 #include "tyndall/math/rgb.h"
 #include "tyndall/math/transform.h"
@@ -17,11 +18,13 @@ namespace tyndall {
 
 /// Light that could arrive at a point, before occlusion and transmittance.
 struct LightSample {
-  Vec3 wi;         ///< unit, towards the light
-  float distance;  ///< to the light along wi; infinity for lights at infinity
-  Rgb L;           ///< radiance; for point-like lights intensity / distance^2
-  float pdf;       ///< of wi w.r.t. solid angle [1/sr]; one for point-like lights
-  bool is_delta;   ///< no path can hit the light by chance
+  Vec3 wi;  ///< unit, towards the light
+  float
+      distance;   ///< to the light along wi; infinity for lights at infinity and in volumes
+  Rgb L;          ///< radiance; for point-like lights intensity / distance^2; one for
+                  ///< volume lights, whose radiance is found by tracking along the line
+  float pdf;      ///< of wi w.r.t. solid angle [1/sr]; one for point-like lights
+  bool is_delta;  ///< no path can hit the light by chance
 };
 
 /// A point on a light, drawn without regard to who looks at it.
@@ -29,6 +32,7 @@ struct LightPoint {
   SurfacePoint
       on;  ///< of point-like lights only `on.p` means something; the normals are zero
   float pdf_area;  ///< density w.r.t. area [1/scene unit^2]; one for point-like lights
+                   ///< and in volumes
   bool is_delta;   ///< point-like
 };
 
@@ -100,7 +104,7 @@ struct AreaLight {
 };
 
 using LightVariant = std::variant<PointLight, SpotLight, DistantLight, ConstantEnvironment,
-                                  ImageEnvironment, AreaLight>;
+                                  ImageEnvironment, AreaLight, VolumeLight>;
 
 class Light {
  public:
@@ -110,10 +114,11 @@ class Light {
 
   /// Draws a direction towards the light from `p`. Empty if the light does not reach p.
   std::optional<LightSample> sample(Vec3 p, Vec2 u) const;
-  /// Draws a point on the light, uniform by area. Empty for lights at infinity.
+  /// Draws a point on the light, uniform by area, in volumes by emitted power. Empty for
+  /// lights at infinity.
   std::optional<LightPoint> sample_point(Vec2 u) const;
   /// What leaves a point of sample_point() towards the unit vector `w`: intensity [W/sr] of
-  /// point-like lights, else radiance. Black for lights at infinity.
+  /// point-like lights, else radiance. Black for lights at infinity and in volumes.
   Rgb emission(const SurfacePoint& on, Vec3 w) const;
   /// Empty for lights at infinity.
   std::optional<LightExtent> extent() const;
@@ -123,6 +128,9 @@ class Light {
   /// Density with which sample() draws the direction wi towards this environment [1/sr];
   /// zero for other lights.
   float pdf(Vec3 wi) const;
+  /// Density with which sample() from `from` draws the direction w towards this volume
+  /// light [1/sr]; zero for other lights.
+  float pdf(Vec3 from, Vec3 w) const;
   /// Radiance that arrives against direction w from infinity; black unless an environment.
   Rgb environment(Vec3 w) const;
   /// Emitted power [W], for the choice between lights; of lights at infinity that which

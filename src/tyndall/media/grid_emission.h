@@ -4,10 +4,10 @@
 #include <memory>
 #include <optional>
 
+#include "tyndall/geometry/grid_space.h"
 #include "tyndall/math/bounds.h"
 #include "tyndall/math/rgb.h"
 #include "tyndall/math/vec.h"
-#include "tyndall/media/grid_space.h"
 #include "tyndall/media/placed_grid.h"
 
 namespace tyndall {

@@ -3,12 +3,13 @@
 
 #include <memory>
 
+#include "tyndall/geometry/cell_walk.h"
+#include "tyndall/geometry/grid_space.h"
 #include "tyndall/geometry/ray.h"
 #include "tyndall/math/bounds.h"
 #include "tyndall/math/transform.h"
 #include "tyndall/media/brick_grid.h"
 #include "tyndall/media/grid_emission.h"
-#include "tyndall/media/grid_space.h"
 #include "tyndall/media/majorant_grid.h"
 #include "tyndall/media/medium_properties.h"
 #include "tyndall/media/phase_function.h"
@@ -39,7 +40,7 @@ class GridMedium {
       if (!clip) return;
       ray_ = clip->ray;
       t_offset_ = clip->t_offset;
-      walk_ = CellWalk(*medium.majorants_, ray_, 0, clip->length);
+      walk_ = medium.majorants_->walk(ray_, clip->length);
     }
 
     bool next(MediumSegment& segment) {

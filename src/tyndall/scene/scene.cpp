@@ -7,6 +7,7 @@
 
 #include "tyndall/sampling/tabulated.h"
 #include "tyndall/scene/camera_medium.h"
+#include "tyndall/scene/glow.h"
 
 namespace tyndall {
 namespace {
@@ -59,6 +60,7 @@ class Scene::Impl {
         lights(description.lights) {
     bounds.extend(description.camera.position());
     add_area_lights();
+    add_volume_light();
     measure_power();
   }
 
@@ -93,6 +95,8 @@ class Scene::Impl {
   std::vector<Light> lights;
   std::vector<size_t> environments;      // indices of lights that rays can escape to
   std::vector<size_t> light_of_surface;  // or no_light
+  std::optional<size_t> volume_light;    // index
+  bool has_glow = false;
   DiscreteDistribution light_power;
   const Medium* camera_medium = nullptr;
   std::vector<std::string> remarks;
@@ -114,6 +118,14 @@ class Scene::Impl {
           remarks.push_back(
               surface.name +
               ": area lights inside objects are not supported: it emits nothing");
+  }
+
+  void add_volume_light() {
+    has_glow = std::ranges::any_of(description.media, &Medium::is_emissive);
+    std::optional<VolumeLight> light = make_volume_light(description);
+    if (!light) return;
+    volume_light = lights.size();
+    lights.emplace_back(std::move(*light));
   }
 
   void measure_power() {
@@ -140,6 +152,8 @@ const PerspectiveCamera& Scene::camera() const { return impl_->description.camer
 const Medium* Scene::camera_medium() const { return impl_->camera_medium; }
 const std::vector<Light>& Scene::lights() const { return impl_->lights; }
 Bounds3 Scene::bounds() const { return impl_->bounds; }
+std::optional<size_t> Scene::volume_light() const { return impl_->volume_light; }
+bool Scene::has_glow() const { return impl_->has_glow; }
 bool Scene::has_boundaries() const { return impl_->has_boundaries; }
 const std::vector<std::string>& Scene::remarks() const { return impl_->remarks; }
 const SceneDescription& Scene::description() const { return impl_->description; }

@@ -67,6 +67,10 @@ class Scene {
   Rgb environment(Vec3 w) const;
   /// Indices of the lights that environment() sums.
   const std::vector<size_t>& environments() const;
+  /// The light in lights() that all glowing media are; empty if none has bounds.
+  std::optional<size_t> volume_light() const;
+  /// Whether any medium glows.
+  bool has_glow() const;
   /// What the scene was built from.
   const SceneDescription& description() const;
 

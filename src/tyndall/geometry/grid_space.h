@@ -4,10 +4,10 @@
 #include <array>
 #include <optional>
 
+#include "tyndall/geometry/cell_walk.h"
 #include "tyndall/geometry/ray.h"
 #include "tyndall/math/bounds.h"
 #include "tyndall/math/transform.h"
-#include "tyndall/media/majorant_grid.h"
 
 namespace tyndall {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tyndall/media/grid_space.h"
+#include "tyndall/geometry/grid_space.h"
 
 #include <algorithm>
 
