@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenes.h"
 
+#include "support/surfaces.h"
+
 namespace tyndall::test {
 
 Medium grey_fog(float sigma_s, float sigma_a, float g) {
@@ -24,16 +26,7 @@ Medium constant_grid(float sigma_s, float sigma_a, float g, float size,
 }
 
 Surface boundary_sphere(float radius, Vec3 center, int inside, int outside) {
-  return {.shape = Sphere{.world_from_sphere = Transform::translate(center),
-                          .radius = radius,
-                          .z_min = -radius,
-                          .z_max = radius,
-                          .phi_max = 2 * pi,
-                          .flip_normals = false},
-          .material = InterfaceBsdf{},
-          .media = {.inside = inside, .outside = outside, .is_stated = true},
-          .emission = std::nullopt,
-          .name = "boundary sphere"};
+  return sphere_boundary(center, radius, inside, outside);
 }
 
 Surface diffuse_disk(float z, float radius, float reflectance) {
@@ -50,17 +43,7 @@ Surface diffuse_disk(float z, float radius, float reflectance) {
 }
 
 Surface boundary_box(float size, int inside, int outside) {
-  std::vector<Vec3> positions;
-  for (int i = 0; i < 8; ++i)
-    positions.push_back({i & 1 ? size : -size, i & 2 ? size : -size, i & 4 ? size : -size});
-  std::vector<Vec3i> triangles{{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6},
-                               {0, 1, 5}, {0, 5, 4}, {2, 6, 7}, {2, 7, 3},
-                               {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
-  return {.shape = TriangleMesh(std::move(positions), std::move(triangles), {}, {}, false),
-          .material = InterfaceBsdf{},
-          .media = {.inside = inside, .outside = outside, .is_stated = true},
-          .emission = std::nullopt,
-          .name = "boundary box"};
+  return box_boundary({-size, -size, -size}, {size, size, size}, inside, outside);
 }
 
 PerspectiveCamera camera(Vec3 eye, Vec3 at, float fov, Vec2i resolution) {

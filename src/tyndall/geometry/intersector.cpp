@@ -56,10 +56,16 @@ struct RayContext {
   const Ray* world_ray;
   float t_max;
   const InstanceTable* instances;
+  Crossings* crossings;  // where boundaries go that do not stop the ray; null if they do
 
   // The ray where the callback is: in an instance or in the world.
   PreciseRay current_ray() const {
     return precise_ray(*world_ray, instances->of(embree.instID[0]));
+  }
+  // Notes that the ray, or what is left of it, goes through a boundary.
+  void cross(const TargetShape& target, const RayHit& hit, const PreciseRay& ray) const {
+    crossings->push_back(
+        reconstruct(target, hit, ray, instances->of(embree.instID[0])));
   }
   static const RayContext& of(const RTCIntersectContext* embree) {
     return *reinterpret_cast<const RayContext*>(embree);
@@ -94,6 +100,26 @@ void drop_hit_of_ends(const RTCFilterFunctionNArguments* args) {
     args->valid[0] = 0;
 }
 
+// The same for boundaries, which are noted and dropped where they do not stop the ray.
+void filter_boundary(const RTCFilterFunctionNArguments* args) {
+  drop_hit_of_ends(args);
+  const RayContext& context = RayContext::of(args->context);
+  if (!context.crossings || !args->valid[0]) return;
+  args->valid[0] = 0;
+  const TargetShape& target = target_of(args->geometryUserPtr);
+  const auto& hit = *reinterpret_cast<const RTCHit*>(args->hit);
+  const PreciseRay ray = context.current_ray();
+  const double t = plane_distance(target.mesh()->triangle(hit.primID), ray);
+  context.cross(target,
+                {.t = static_cast<float>(t),
+                 .group = 0,
+                 .shape = hit.geomID,
+                 .primitive = hit.primID,
+                 .instance = hit.instID[0],
+                 .uv = {hit.u, hit.v}},
+                ray);
+}
+
 void find_bounds(const RTCBoundsFunctionArguments* args) {
   const Bounds3 b = target_of(args->geometryUserPtr).primitive_bounds(args->primID);
   *args->bounds_o = {b.min.x, b.min.y, b.min.z, 0, b.max.x, b.max.y, b.max.z, 0};
@@ -114,6 +140,34 @@ void intersect_user_geometry(const RTCIntersectFunctionNArguments* args) {
   hit.instID[0] = args->context->instID[0];
 }
 
+// As often as a line can meet one curved primitive.
+constexpr int max_crossings_of_primitive = 2;
+
+void intersect_curved_boundary(const RTCIntersectFunctionNArguments* args) {
+  const RayContext& context = RayContext::of(args->context);
+  if (!context.crossings) return intersect_user_geometry(args);
+  assert(args->N == 1);
+  if (!args->valid[0]) return;
+  const TargetShape& target = target_of(args->geometryUserPtr);
+  const auto t_max = static_cast<double>(context.t_max);
+  PreciseRay rest = context.current_ray();
+  double t = 0;
+  for (int i = 0; i < max_crossings_of_primitive; ++i) {
+    const std::optional<PreciseHit> found = target.intersect(args->primID, rest, t_max - t);
+    if (!found) return;
+    t += found->t;
+    context.cross(target,
+                  {.t = static_cast<float>(t),
+                   .group = 0,
+                   .shape = args->geomID,
+                   .primitive = args->primID,
+                   .instance = context.embree.instID[0],
+                   .uv = found->uv},
+                  rest);
+    rest.o = found->p;
+  }
+}
+
 void occlude_user_geometry(const RTCOccludedFunctionNArguments* args) {
   assert(args->N == 1);
   if (!args->valid[0]) return;
@@ -125,7 +179,7 @@ void occlude_user_geometry(const RTCOccludedFunctionNArguments* args) {
 }
 
 Handle<RTCGeometry> new_triangles(RTCDevice device, const TriangleMesh& mesh,
-                                  bool is_instanced) {
+                                  bool is_boundary, bool is_instanced) {
   Handle<RTCGeometry> geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
   void* vertices =
       rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
@@ -138,15 +192,20 @@ Handle<RTCGeometry> new_triangles(RTCDevice device, const TriangleMesh& mesh,
   // In the world intersect() checks the closest hit itself, which costs less than a
   // callback for each; an occlusion test does not tell what it hit.
   rtcSetGeometryOccludedFilterFunction(geometry.get(), drop_hit_of_ends);
-  if (is_instanced) rtcSetGeometryIntersectFilterFunction(geometry.get(), drop_hit_of_ends);
+  if (is_boundary)
+    rtcSetGeometryIntersectFilterFunction(geometry.get(), filter_boundary);
+  else if (is_instanced)
+    rtcSetGeometryIntersectFilterFunction(geometry.get(), drop_hit_of_ends);
   return geometry;
 }
 
-Handle<RTCGeometry> new_user_geometry(RTCDevice device, size_t primitives) {
+Handle<RTCGeometry> new_user_geometry(RTCDevice device, size_t primitives,
+                                      bool is_boundary) {
   Handle<RTCGeometry> geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER));
   rtcSetGeometryUserPrimitiveCount(geometry.get(), static_cast<unsigned>(primitives));
   rtcSetGeometryBoundsFunction(geometry.get(), find_bounds, nullptr);
-  rtcSetGeometryIntersectFunction(geometry.get(), intersect_user_geometry);
+  rtcSetGeometryIntersectFunction(
+      geometry.get(), is_boundary ? intersect_curved_boundary : intersect_user_geometry);
   rtcSetGeometryOccludedFunction(geometry.get(), occlude_user_geometry);
   return geometry;
 }
@@ -193,6 +252,12 @@ RTCRay to_embree(const Ray& ray, float t_max, RayMask mask) {
           .flags = 0};
 }
 
+void drop_beyond(Crossings& crossings, float t) {
+  const auto is_beyond = [&](const SceneHit& crossing) { return crossing.t > t; };
+  crossings.erase(std::remove_if(crossings.begin(), crossings.end(), is_beyond),
+                  crossings.end());
+}
+
 RTCHit no_hit() {
   RTCHit hit{};
   hit.geomID = hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
@@ -223,17 +288,20 @@ class Intersector::Impl {
     boundary_bounds_ = bounds_of(boundaries_.get());
   }
 
-  std::optional<RayHit> find(const Ray& ray, float t_max, RayMask mask) const {
+  std::optional<RayHit> find(const Ray& ray, float t_max, RayMask mask,
+                             Crossings* crossings) const {
     if (!can_hit(ray, t_max)) return std::nullopt;
     const bool boundaries_only = mask == RayMask::boundary;
     if (boundaries_only && goes_away_from(boundary_bounds_, ray)) return std::nullopt;
     const RTCScene scene = boundaries_only ? boundaries_.get() : scenes_[0].get();
     RayContext context = new_context(ray, t_max);
+    context.crossings = crossings;
     RTCRayHit query{.ray = to_embree(ray, t_max, mask), .hit = no_hit()};
     for (;;) {
       rtcIntersect1(scene, &context.embree, &query);
       if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
       if (auto hit = finish_hit(context, query)) return hit;
+      if (crossings) drop_beyond(*crossings, query.ray.tfar);  // they will be found again
       // It was a triangle at an end of the ray: go on behind it.
       query.ray.tnear = std::nextafter(query.ray.tfar, infinity);
       query.ray.tfar = t_max;
@@ -273,15 +341,17 @@ class Intersector::Impl {
     for (size_t i = 0; i < group.size(); ++i) {
       TargetShape& target = targets.emplace_back(*group[i].shape);
       const size_t primitives = target.primitive_count();
+      const bool is_boundary = group[i].is_boundary;
       if (primitives == 0) continue;
       const Handle<RTCGeometry> handle =
-          target.mesh() ? new_triangles(device_.get(), *target.mesh(), is_instanced)
-                        : new_user_geometry(device_.get(), primitives);
+          target.mesh() ? new_triangles(device_.get(), *target.mesh(), is_boundary,
+                                        is_instanced)
+                        : new_user_geometry(device_.get(), primitives, is_boundary);
       rtcSetGeometryUserData(handle.get(), &target);
       rtcSetGeometryMask(handle.get(), mask_of(group[i]));
       rtcCommitGeometry(handle.get());
       rtcAttachGeometryByID(scene.get(), handle.get(), static_cast<unsigned>(i));
-      if (group[i].is_boundary && !is_instanced)
+      if (is_boundary && !is_instanced)
         rtcAttachGeometryByID(boundaries_.get(), handle.get(), static_cast<unsigned>(i));
     }
     throw_on_error(device_.get());
@@ -317,6 +387,7 @@ class Intersector::Impl {
     context.world_ray = &ray;
     context.t_max = t_max;
     context.instances = &instances_;
+    context.crossings = nullptr;
     return context;
   }
 
@@ -368,7 +439,16 @@ std::optional<SceneHit> Intersector::intersect(const Ray& ray, float t_max,
 }
 
 std::optional<RayHit> Intersector::find(const Ray& ray, float t_max, RayMask mask) const {
-  return impl_->find(ray, t_max, mask);
+  return impl_->find(ray, t_max, mask, nullptr);
+}
+
+std::optional<RayHit> Intersector::find_through(const Ray& ray, float t_max, RayMask mask,
+                                                Crossings& crossings) const {
+  crossings.clear();
+  const std::optional<RayHit> hit = impl_->find(ray, t_max, mask, &crossings);
+  if (hit) drop_beyond(crossings, hit->t);
+  std::ranges::sort(crossings, {}, &SceneHit::t);
+  return hit;
 }
 
 SceneHit Intersector::resolve(const Ray& ray, const RayHit& hit) const {

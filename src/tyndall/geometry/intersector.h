@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <boost/container/small_vector.hpp>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -20,6 +21,9 @@ enum class RayMask : uint32_t {
   boundary = 2,  ///< interfaces between media only
   all = 3,
 };
+
+/// Where a ray goes through boundaries, in order.
+using Crossings = boost::container::small_vector<SceneHit, 4>;
 
 /// Finds the first of many shapes that a ray meets. Embree behind it; immutable and safe to
 /// use from all threads once built.
@@ -52,6 +56,10 @@ class Intersector {
   /// scene, and many hits are not asked for it. `ray` is the one that found the hit.
   std::optional<RayHit> find(const Ray& ray, float t_max, RayMask mask) const;
   SceneHit resolve(const Ray& ray, const RayHit& hit) const;
+  /// As find(), but boundaries do not stop the ray: it goes through all in front of the
+  /// hit, which it writes to `crossings`. Of coincident boundaries it crosses each.
+  std::optional<RayHit> find_through(const Ray& ray, float t_max, RayMask mask,
+                                     Crossings& crossings) const;
   /// Whether intersect() would find anything.
   bool is_occluded(const Ray& ray, float t_max, RayMask mask) const;
 

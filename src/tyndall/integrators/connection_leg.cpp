@@ -26,17 +26,19 @@ ConnectionContext::ConnectionContext(const Scene& scene, const ConnectionSetting
         std::make_unique<const LightVisibility>(scene, visibility_bytes, visibility_floor);
   if (settings.lit_surfaces > 0) lit_.emplace(scene, settings.lit_surfaces);
   if (settings.direction) guiding_ = std::make_unique<DirectionGuiding>(scene, settings);
-  std::map<float, std::shared_ptr<const ScatteringTables>> by_g;
   for (const Medium& medium : scene.description().media) {
     const float g = medium.phase().mean_cosine();
-    std::shared_ptr<const ScatteringTables>& tables = by_g[g];
+    std::shared_ptr<const ScatteringTables>& tables = by_mean_cosine_[g];
     if (!tables) tables = std::make_shared<const ScatteringTables>(g);
     tables_[&medium] = tables;
   }
 }
 
 const ScatteringTables& ConnectionContext::tables(const Medium& medium) const {
-  return *tables_.at(&medium);
+  const auto found = tables_.find(&medium);
+  // Where media overlap, the tables of one of them.
+  return found != tables_.end() ? *found->second
+                                : *by_mean_cosine_.at(medium.phase().mean_cosine());
 }
 
 std::optional<Vec3> Pivots::operator()(size_t light) const {

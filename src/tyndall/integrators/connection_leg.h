@@ -49,6 +49,7 @@ class ConnectionContext {
   std::optional<LitSurfaceSampling> lit_;
   std::unique_ptr<DirectionGuiding> guiding_;
   std::map<const Medium*, std::shared_ptr<const ScatteringTables>> tables_;
+  std::map<float, std::shared_ptr<const ScatteringTables>> by_mean_cosine_;
 };
 
 /// One point of each light, fixed for a path: what its techniques aim at. Techniques that

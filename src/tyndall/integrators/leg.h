@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <boost/container/small_vector.hpp>
 #include <optional>
 
 #include "tyndall/media/transmittance.h"
@@ -14,41 +13,32 @@ namespace tyndall {
 inline constexpr float far_distance = 1e30f;
 
 /// The straight way of light from a vertex to the first surface that is not a mere
-/// boundary, cut into spans of one medium each. Traced no farther than asked for.
+/// boundary, cut into spans of one medium each. Traced once somebody asks.
 class Leg {
  public:
-  struct Span {
-    float t_min, t_max;    ///< along ray() [scene units]
-    const Medium* medium;  ///< null in empty space
-  };
+  using Span = MediumSpan;
 
   Leg(const Scene& scene, const Ray& ray, const Medium* medium);
 
   const Ray& ray() const { return ray_; }
   /// The i-th span, or null if the leg has fewer.
   const Span* span(size_t i);
-  /// The surface at the end; null if the leg leaves the scene. Traces everything.
+  /// The surface at the end; null if the leg leaves the scene.
   const SurfaceHit* end();
-  /// Length of the whole leg, far_distance if it leaves the scene. Traces everything.
+  /// Length of the whole leg, far_distance if it leaves the scene.
   float length();
   /// The medium at its end.
   const Medium* end_medium();
 
  private:
-  void trace_span();
-  void cross_boundary();
-  void trace_all();
+  void trace();
 
   const Scene* scene_;
   Ray ray_;
-  boost::container::small_vector<Span, 4> spans_;
-  std::optional<SurfaceHit> end_;  // once somebody asks
-  bool is_complete_ = false;
-  // The last ray, what it found, and the medium that it went through:
-  Ray last_;
+  MediumSpans spans_;  // empty until traced
   std::optional<FoundSurface> found_;
-  float t_ = 0;
-  const Medium* medium_;
+  std::optional<SurfaceHit> end_;  // once somebody asks
+  const Medium* medium_;           // at the start, then at the end
 };
 
 /// Unbiased estimate of the transmittance of one medium. Never negative, as radiance must

@@ -73,6 +73,8 @@ class RenderJob {
     statistics_.samples_per_pixel = done_;
     statistics_.paths = static_cast<int64_t>(done_) * pixel_count();
     statistics_.rejected = film_.rejected();
+    statistics_.counters["camera.media"] =
+        static_cast<double>(scene_.camera_media().size());
     integrator_->report(statistics_);
     return {std::move(film_), std::move(statistics_)};
   }

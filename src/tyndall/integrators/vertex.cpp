@@ -17,18 +17,19 @@ Vertex::Vertex(const SurfaceHit& hit, Vec3 wo, const Medium* medium)
       bsdf_(Bsdf(hit.surface->material, hit.point.ng, hit.point.ns)) {}
 
 Rgb Vertex::eval(Vec3 wi) const {
-  return bsdf_ ? bsdf_->eval(wo_, wi) : Rgb(medium_->phase().eval(wo_, wi));
+  return bsdf_ ? bsdf_->eval(wo_, wi) : medium_->eval_phase(p_, wo_, wi);
 }
 
 float Vertex::pdf(Vec3 wi) const {
-  return bsdf_ ? bsdf_->pdf(wo_, wi) : medium_->phase().pdf(wo_, wi);
+  return bsdf_ ? bsdf_->pdf(wo_, wi) : medium_->pdf_phase(p_, wo_, wi);
 }
 
 std::optional<DirectionSample> Vertex::sample(Sampler& sampler) const {
   if (!bsdf_) {
-    const std::optional<PhaseSample> s = medium_->phase().sample(wo_, sampler.next_2d());
+    const std::optional<MediumDirection> s =
+        medium_->sample_phase(p_, wo_, sampler.next_2d());
     if (!s) return std::nullopt;
-    return DirectionSample{s->wi, Rgb(s->value), s->pdf, false, 1};
+    return DirectionSample{s->wi, s->value, s->pdf, false, 1};
   }
   const float u_lobe = sampler.next_1d();
   const std::optional<BsdfSample> s = bsdf_->sample(wo_, u_lobe, sampler.next_2d());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <variant>
 
 #include "tyndall/geometry/ray.h"
@@ -9,6 +10,7 @@
 #include "tyndall/media/grid_medium.h"
 #include "tyndall/media/homogeneous_medium.h"
 #include "tyndall/media/medium_properties.h"
+#include "tyndall/media/overlapping_media.h"
 #include "tyndall/media/rgb_grid_medium.h"
 
 namespace tyndall {
@@ -25,7 +27,8 @@ namespace tyndall {
 ///   const PhaseFunction& phase() const;
 /// Segments has  bool next(MediumSegment&)  that yields segments until it returns false;
 /// what no segment covers is empty space.
-using MediumVariant = std::variant<HomogeneousMedium, GridMedium, RgbGridMedium>;
+using MediumVariant =
+    std::variant<HomogeneousMedium, GridMedium, RgbGridMedium, OverlappingMedia>;
 
 class Medium {
  public:
@@ -52,8 +55,28 @@ class Medium {
   size_t memory() const {
     return visit([](const auto& m) { return m.memory(); });
   }
+  /// Where media overlap, of one of them: see eval_phase().
   const PhaseFunction& phase() const {
     return visit([](const auto& m) -> const PhaseFunction& { return m.phase(); });
+  }
+
+  /// p(wo, wi) at p per channel [1/sr]: the mixture where media overlap.
+  Rgb eval_phase(Vec3 p, Vec3 wo, Vec3 wi) const {
+    const auto* media = std::get_if<OverlappingMedia>(&medium_);
+    return media ? media->eval_phase(p, wo, wi) : Rgb(phase().eval(wo, wi));
+  }
+  /// Density of sample_phase() [1/sr].
+  float pdf_phase(Vec3 p, Vec3 wo, Vec3 wi) const {
+    const auto* media = std::get_if<OverlappingMedia>(&medium_);
+    return media ? media->pdf_phase(p, wo, wi) : phase().pdf(wo, wi);
+  }
+  /// Draws wi in proportion to the phase function at p. Empty where nothing scatters.
+  std::optional<MediumDirection> sample_phase(Vec3 p, Vec3 wo, Vec2 u) const {
+    if (const auto* media = std::get_if<OverlappingMedia>(&medium_))
+      return media->sample_phase(p, wo, u);
+    const std::optional<PhaseSample> s = phase().sample(wo, u);
+    if (!s) return std::nullopt;
+    return MediumDirection{s->wi, Rgb(s->value), s->pdf};
   }
 
  private:

@@ -29,6 +29,18 @@ Rgb estimate(const M& medium, const Ray& ray, float t_max, RandomStream& rng,
   return Rgb(0);
 }
 
+// Independent of each other, so that the product is unbiased, and exact where all are.
+Rgb estimate(const OverlappingMedia& media, const Ray& ray, float t_max, RandomStream& rng,
+             TransmittanceMethod method) {
+  Rgb product(1);
+  for (const SingleMedium& part : media.parts()) {
+    product *= std::visit(
+        [&](const auto& m) { return estimate(m, ray, t_max, rng, method); }, part);
+    if (is_black(product)) break;
+  }
+  return product;
+}
+
 }  // namespace
 
 Rgb estimate_transmittance(const Medium& medium, const Ray& ray, float t_max,

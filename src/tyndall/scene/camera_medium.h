@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace tyndall {
 
@@ -9,14 +10,15 @@ class Scene;
 
 /// What surrounds the camera, and what to tell the user of it.
 struct CameraMediumFinding {
-  int medium;          ///< index, or no_medium
-  std::string remark;  ///< empty if all agrees
+  std::vector<int> media;  ///< indices; empty in empty space, several where media overlap
+  std::string remark;      ///< empty if all agrees
 };
 
-/// Asks the nearest surfaces that state their media, in many directions, which medium lies
-/// on the camera's side. Directions without such a surface speak for `stated`, what the
-/// scene file said; the majority decides. So a file that names the camera's medium too
-/// late, or not at all, renders as its geometry means it.
+/// Asks the surfaces that state their media, in many directions, in which media light is
+/// that arrives at the camera: those that it has to leave, on the way out, without having
+/// entered them. Directions without such a surface speak for `stated`, what the scene file
+/// said; the majority decides. So a file that names the camera's medium too late, or not at
+/// all, renders as its geometry means it.
 CameraMediumFinding find_camera_medium(const Scene& scene, int stated);
 
 }  // namespace tyndall

@@ -78,8 +78,11 @@ std::optional<EmissionDistribution> measure_emission(const Medium& medium,
                                                      const Bounds3& box) {
   if (!medium.is_emissive()) return std::nullopt;
   return medium.visit([&](const auto& m) -> std::optional<EmissionDistribution> {
-    if constexpr (std::is_same_v<std::decay_t<decltype(m)>, HomogeneousMedium>)
+    using M = std::decay_t<decltype(m)>;
+    if constexpr (std::is_same_v<M, HomogeneousMedium>)
       return measure(medium, Transform(), box);
+    else if constexpr (std::is_same_v<M, OverlappingMedia>)
+      return std::nullopt;  // its parts emit
     else
       return measure(medium, m.world_from_grid(), m.grid_box());
   });

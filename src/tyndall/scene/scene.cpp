@@ -6,8 +6,11 @@
 #include <utility>
 
 #include "tyndall/sampling/tabulated.h"
+#include "tyndall/scene/boundary_check.h"
+#include "tyndall/scene/boundary_steps.h"
 #include "tyndall/scene/camera_medium.h"
 #include "tyndall/scene/glow.h"
+#include "tyndall/scene/medium_sets.h"
 
 namespace tyndall {
 namespace {
@@ -55,6 +58,7 @@ class Scene::Impl {
   explicit Impl(SceneDescription d)
       : description(std::move(d)),
         intersector(make_groups(description), make_instances(description)),
+        sets(description.media),
         has_boundaries(any_boundary(description)),
         bounds(intersector.bounds()),
         lights(description.lights) {
@@ -84,12 +88,45 @@ class Scene::Impl {
     return hit ? std::optional<SurfaceHit>(resolve(ray, *hit)) : std::nullopt;
   }
 
+  SurfaceHit resolve(const SceneHit& hit) const {
+    const std::vector<Surface>& surfaces =
+        hit.group == 0 ? description.surfaces : description.objects[hit.group - 1];
+    return {.t = hit.t,
+            .point = hit.point,
+            .surface = &surfaces[hit.shape],
+            .light = nullptr,  // boundaries do not shine
+            .light_index = no_light};
+  }
+
+  // Cuts (0, t_end) of a ray at the boundaries that it goes through. Returns the medium at
+  // the end.
+  const Medium* cut(const Ray& ray, float t_end, const Medium* medium,
+                    const Crossings& crossings, MediumSpans& spans) const {
+    BoundarySteps steps(ray, t_end);
+    for (const SceneHit& hit : crossings) steps.add(resolve(hit));
+    float t = 0;
+    const auto is_in = [&](int index) {
+      return sets.contains(medium, this->medium(index));
+    };
+    while (const std::optional<BoundaryStep> step = steps.next(is_in)) {
+      const Medium* behind =
+          sets.cross(medium, this->medium(step->from), this->medium(step->to));
+      if (behind == medium) continue;
+      if (step->t > t) spans.push_back({t, step->t, medium});
+      t = std::max(t, step->t);
+      medium = behind;
+    }
+    if (t_end > t || spans.empty()) spans.push_back({t, t_end, medium});
+    return medium;
+  }
+
   const Medium* medium(int index) const {
     return index == no_medium ? nullptr : &description.media[static_cast<size_t>(index)];
   }
 
   SceneDescription description;
   Intersector intersector;
+  MediumSets sets;
   bool has_boundaries;
   Bounds3 bounds;
   std::vector<Light> lights;
@@ -99,6 +136,7 @@ class Scene::Impl {
   bool has_glow = false;
   DiscreteDistribution light_power;
   const Medium* camera_medium = nullptr;
+  std::vector<int> camera_media;
   std::vector<std::string> remarks;
 
  private:
@@ -142,7 +180,16 @@ Scene::Scene(SceneDescription description)
     : impl_(std::make_unique<Impl>(std::move(description))) {
   const CameraMediumFinding finding =
       find_camera_medium(*this, impl_->description.camera_medium);
-  impl_->camera_medium = impl_->medium(finding.medium);
+  for (const int medium : finding.media)
+    impl_->camera_medium =
+        impl_->sets.cross(impl_->camera_medium, nullptr, impl_->medium(medium));
+  impl_->camera_media = finding.media;
+  const auto check = [&](const std::vector<Surface>& surfaces) {
+    for (std::string& remark : check_boundaries(surfaces))
+      impl_->remarks.push_back(std::move(remark));
+  };
+  check(impl_->description.surfaces);
+  for (const std::vector<Surface>& object : impl_->description.objects) check(object);
   if (!finding.remark.empty()) impl_->remarks.push_back(finding.remark);
 }
 
@@ -150,6 +197,7 @@ Scene::~Scene() = default;
 
 const PerspectiveCamera& Scene::camera() const { return impl_->description.camera; }
 const Medium* Scene::camera_medium() const { return impl_->camera_medium; }
+const std::vector<int>& Scene::camera_media() const { return impl_->camera_media; }
 const std::vector<Light>& Scene::lights() const { return impl_->lights; }
 Bounds3 Scene::bounds() const { return impl_->bounds; }
 std::optional<size_t> Scene::volume_light() const { return impl_->volume_light; }
@@ -176,9 +224,36 @@ std::optional<SurfaceHit> Scene::intersect_opaque(const Ray& ray, float t_max) c
   return impl_->intersect(ray, t_max, RayMask::opaque);
 }
 
-std::optional<SurfaceHit> Scene::intersect_boundary(const Ray& ray, float t_max) const {
-  if (!impl_->has_boundaries) return std::nullopt;
-  return impl_->intersect(ray, t_max, RayMask::boundary);
+std::optional<SurfaceHit> Scene::intersect_through(const Ray& ray, float t_max,
+                                                   SurfaceHits& crossings) const {
+  Crossings found;
+  const std::optional<RayHit> hit =
+      impl_->intersector.find_through(ray, t_max, RayMask::all, found);
+  crossings.clear();
+  for (const SceneHit& crossing : found) crossings.push_back(impl_->resolve(crossing));
+  return hit ? std::optional<SurfaceHit>(impl_->resolve(ray, *hit)) : std::nullopt;
+}
+
+std::optional<FoundSurface> Scene::trace(const Ray& ray, float t_max,
+                                         const Medium*& medium, MediumSpans& spans) const {
+  spans.clear();
+  Crossings crossings;
+  const std::optional<RayHit> hit =
+      impl_->has_boundaries
+          ? impl_->intersector.find_through(ray, t_max, RayMask::all, crossings)
+          : impl_->intersector.find(ray, t_max, RayMask::all);
+  medium = impl_->cut(ray, hit ? hit->t : t_max, medium, crossings, spans);
+  if (!hit) return std::nullopt;
+  return FoundSurface{*hit, &impl_->surface(*hit)};
+}
+
+const Medium* Scene::media_along(const Ray& ray, float t_max, const Medium* medium,
+                                 MediumSpans& spans) const {
+  spans.clear();
+  Crossings crossings;
+  if (impl_->has_boundaries)
+    impl_->intersector.find_through(ray, t_max, RayMask::boundary, crossings);
+  return impl_->cut(ray, t_max, medium, crossings, spans);
 }
 
 bool Scene::is_occluded(const Ray& ray, float t_max) const {
@@ -187,9 +262,9 @@ bool Scene::is_occluded(const Ray& ray, float t_max) const {
 
 const Medium* Scene::medium_across(const SurfaceHit& hit, Vec3 d,
                                    const Medium* current) const {
-  const MediumInterface& media = hit.surface->media;
-  if (!media.is_stated || !media.is_transition()) return current;
-  return impl_->medium(dot(d, hit.point.ng) > 0 ? media.outside : media.inside);
+  const std::optional<BoundaryStep> step = step_across(hit, d);
+  if (!step) return current;
+  return impl_->sets.cross(current, impl_->medium(step->from), impl_->medium(step->to));
 }
 
 std::optional<SelectedLight> Scene::select_light(float u) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <boost/container/small_vector.hpp>
 #include <memory>
 #include <optional>
 #include <string>
@@ -27,6 +28,16 @@ struct FoundSurface {
   const Surface* surface;  ///< material, media, emission
 };
 
+/// A stretch of a ray in one medium.
+struct MediumSpan {
+  float t_min, t_max;    ///< along the ray [scene units]
+  const Medium* medium;  ///< null in empty space
+};
+
+/// In order and without gaps, from zero on; not empty.
+using MediumSpans = boost::container::small_vector<MediumSpan, 4>;
+using SurfaceHits = boost::container::small_vector<SurfaceHit, 4>;
+
 /// An immutable scene, ready to trace. Safe to use from all threads.
 class Scene {
  public:
@@ -37,9 +48,11 @@ class Scene {
   Scene& operator=(const Scene&) = delete;
 
   const PerspectiveCamera& camera() const;
-  /// The medium that surrounds the camera, found by tracing to the nearest surfaces that
-  /// state their media; null in empty space.
+  /// What surrounds the camera, found by tracing to the surfaces around it that state their
+  /// media; null in empty space.
   const Medium* camera_medium() const;
+  /// The indices of the media in it.
+  const std::vector<int>& camera_media() const;
   const std::vector<Light>& lights() const;
   Bounds3 bounds() const;
 
@@ -50,14 +63,23 @@ class Scene {
   SurfaceHit resolve(const Ray& ray, const FoundSurface& found) const;
   /// The first surface in (0, t_max) that is not only a boundary between media.
   std::optional<SurfaceHit> intersect_opaque(const Ray& ray, float t_max) const;
-  /// The first boundary between media in (0, t_max).
-  std::optional<SurfaceHit> intersect_boundary(const Ray& ray, float t_max) const;
+  /// As intersect_opaque(); writes the boundaries in front of it to `crossings`, in order.
+  std::optional<SurfaceHit> intersect_through(const Ray& ray, float t_max,
+                                              SurfaceHits& crossings) const;
+  /// The first surface that is not only a boundary; writes the media before it to `spans`,
+  /// for a ray that starts in `medium`, which becomes the medium at the end.
+  std::optional<FoundSurface> trace(const Ray& ray, float t_max, const Medium*& medium,
+                                    MediumSpans& spans) const;
+  /// The media along (0, t_max) of a ray that starts in `medium` and that no surface stops.
+  /// Returns the medium at the end.
+  const Medium* media_along(const Ray& ray, float t_max, const Medium* medium,
+                            MediumSpans& spans) const;
   /// Whether an opaque surface lies in (0, t_max).
   bool is_occluded(const Ray& ray, float t_max) const;
   bool has_boundaries() const;
 
-  /// The medium behind a surface for a ray that crosses it towards `d`, coming from
-  /// `current`.
+  /// The media behind a surface for a ray that crosses it towards `d`, coming from
+  /// `current`; see MediumSets.
   const Medium* medium_across(const SurfaceHit& hit, Vec3 d, const Medium* current) const;
 
   /// Draws a light in proportion to its power. Empty if there are none.
