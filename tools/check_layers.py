@@ -36,7 +36,7 @@ LIBRARIES = {
     "zlib": (r"zlib\.h", {"loader", "image", "media"}, 2),
     "OpenVDB": (r"openvdb/", {"media"}, 1),
     "Blosc": (r"blosc\.h", {"media"}, 1),
-    "Boost": (r"boost/", {"geometry", "lights", "scene", "integrators", "techniques", "guiding"}, 10),
+    "Boost": (r"boost/", {"geometry", "media", "lights", "scene", "integrators", "techniques", "guiding"}, 10),
     "NanoVDB": (r"nanovdb/", {"media"}, 2),
     "fast_float": (r"fast_float/", {"loader"}, 2),
     "fmt": (r"fmt/", set(LAYERS), 1000),
