@@ -43,7 +43,7 @@ SceneDescription two_balls(Medium outer, Medium inner, int around_inner) {
   d.surfaces.push_back(test::boundary_sphere(1));
   d.surfaces.push_back(test::boundary_sphere(0.6f, {0.2f, 0, 0}, 1, around_inner));
   d.lights.push_back(Light(PointLight{{0.5f, 0.9f, -1.5f}, Rgb(5)}));
-  d.lights.push_back(Light(PointLight{{0.3f, 0.1f, 0.2f}, Rgb(1)}));  // inside both
+  d.lights.push_back(Light(ConstantEnvironment{Rgb(0.2f)}));
   return d;
 }
 
@@ -53,7 +53,7 @@ RunningMoments look(SceneDescription d, const std::string& integrator, uint64_t 
   const Scene scene(std::move(d));
   RenderSettings s = test::settings(integrator, 6);
   s.seed = seed;
-  return test::estimate(scene, s, 60'000, [&](Sampler& sampler) {
+  return test::estimate(scene, s, 20'000, [&](Sampler& sampler) {
     return Ray{eye, normalize(Vec3{0.6f * sampler.next_1d() - 0.2f, 0.1f, 2.5f})};
   });
 }
@@ -94,11 +94,11 @@ TEST_P(OverlapTest, WhiteFurnace) {
   const Vec3 eye{0, 0, -3};
   const Scene scene(std::move(d));
   const RunningMoments moments =
-      test::estimate(scene, test::settings(GetParam(), 100'000), 20'000, [&](Sampler& s) {
+      test::estimate(scene, test::settings(GetParam(), 100'000), 5000, [&](Sampler& s) {
         return Ray{eye, normalize(Vec3{0.6f * s.next_1d() - 0.3f, 0.1f, 2.5f})};
       });
   EXPECT_GT(z_p_value(moments, 1), sidak(0.01, 4)) << moments.mean();
-  EXPECT_LT(moments.standard_error(), 0.02);
+  EXPECT_LT(moments.standard_error(), 0.03);
 }
 
 }  // namespace

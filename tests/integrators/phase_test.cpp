@@ -22,7 +22,12 @@ RunningMoments look(const std::string& integrator, const PhaseFunction& phase,
   d.camera_medium = 0;
   d.media.push_back(Medium(HomogeneousMedium({Rgb(0.1f), Rgb(0.6f), Rgb(0)}, phase)));
   d.surfaces.push_back(test::diffuse_disk(4, 3, 0.6f));
-  d.lights.push_back(Light(PointLight{{1, 1, 2}, Rgb(4)}));
+  // Not a point: next event estimation alone would have infinite variance in the fog.
+  Surface lamp = test::boundary_sphere(0.3f, {1, 1, 2}, no_medium, no_medium);
+  lamp.material = DiffuseBsdf{Rgb(0.0f)};
+  lamp.media = {};
+  lamp.emission = AreaEmission{Rgb(10), false};
+  d.surfaces.push_back(lamp);
   const Scene scene(std::move(d));
   RenderSettings s = test::settings(integrator, 3);
   s.seed = seed;
@@ -44,9 +49,9 @@ TEST_P(PhaseTest, AgreesWithTheWalkForAnyPhaseFunction) {
       RayleighPhase(), TwoLobePhase(HenyeyGreenstein(0.85f), HenyeyGreenstein(-0.5f), 0.7f),
       two_peaks()};
   for (size_t i = 0; i < phases.size(); ++i) {
-    const RunningMoments walk = look("volpath", phases[i], 2 * i + 1, 100'000);
-    const RunningMoments connected = look(GetParam(), phases[i], 2 * i + 2, 50'000);
-    EXPECT_LT(connected.standard_error(), 0.02 * connected.mean()) << i;
+    const RunningMoments walk = look("volpath", phases[i], 2 * i + 1, 60'000);
+    const RunningMoments connected = look(GetParam(), phases[i], 2 * i + 2, 20'000);
+    EXPECT_LT(connected.standard_error(), 0.04 * connected.mean()) << i;
     EXPECT_GT(welch_p_value(walk, connected), sidak(0.01, 9))
         << i << ": " << walk.mean() << " +- " << walk.standard_error() << " and "
         << connected.mean() << " +- " << connected.standard_error();
