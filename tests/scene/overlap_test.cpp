@@ -107,7 +107,7 @@ TEST(OverlapTest, BoxExactlyOnAWall) {
       const Ray ray{o, normalize(target - o)};
       const auto hit = scene.trace(ray, 100, medium, spans);
       ASSERT_TRUE(hit);
-      EXPECT_NEAR(hit->point.p.z, 0.7f, 1e-5f);
+      EXPECT_NEAR(ray.at(hit->hit.t).z, 0.7f, 1e-5f);
       EXPECT_EQ(sigma_s(medium), 1);
       EXPECT_EQ(spans.size(), 1u);
     }
