@@ -30,12 +30,14 @@ const char* kind_of(const Shape& shape) {
 
 const char* kind_of(const Medium& medium) {
   return medium.visit(Overloaded{[](const HomogeneousMedium&) { return "homogeneous"; },
+                                 [](const OverlappingMedia&) { return "overlapping"; },
                                  [](const GridMedium&) { return "grid"; },
                                  [](const RgbGridMedium&) { return "rgb grid"; }});
 }
 
 Bounds3 bounds_of(const Medium& medium) {
   return medium.visit(Overloaded{[](const HomogeneousMedium&) { return Bounds3{}; },
+                                 [](const OverlappingMedia&) { return Bounds3{}; },
                                  [](const auto& grid) { return grid.world_bounds(); }});
 }
 
