@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Whole paths: samples per second of each integrator in a room of smoke or fog with one
-// lamp, through few and through many triangles. "items_per_second" are path samples.
+// lamp, through few and through many triangles. "items_per_second" are path samples; those
+// of BM_BareWalk are what rays and media alone allow.
 #include <benchmark/benchmark.h>
 
 #include <memory>
 #include <string>
 
+#include "bare_walk.h"
 #include "smoke.h"
 #include "tyndall/integrators/integrator.h"
 #include "tyndall/sampling/warps.h"
@@ -15,7 +17,9 @@
 namespace tyndall {
 namespace {
 
-constexpr int max_depth = 8;
+constexpr int max_depth = 8, many_squares = 289;
+constexpr float albedo = 0.9f, reflectance = 0.5f;
+constexpr Vec3 lamp{0.3f, 0.8f, -0.2f};
 
 // The cube [-1, 1]^3 seen from inside; each side has n x n squares of two triangles, bent a
 // little if there are many.
@@ -47,7 +51,7 @@ TriangleMesh room(int n) {
 // All fill the room. The optical depth across smoke varies a lot.
 Medium medium(int64_t kind) {
   const auto properties = [](float sigma_t) {
-    return MediumProperties{Rgb(0.1f * sigma_t), Rgb(0.9f * sigma_t), Rgb(0)};
+    return MediumProperties{Rgb((1 - albedo) * sigma_t), Rgb(albedo * sigma_t), Rgb(0)};
   };
   if (kind == 0) return Medium(HomogeneousMedium(properties(1), IsotropicPhase{}));
   static const DensityGrid smoke = make_smoke(128);
@@ -60,11 +64,11 @@ std::unique_ptr<Scene> make_scene(int64_t medium_kind, int squares) {
   d.media.push_back(medium(medium_kind));
   d.camera_medium = 0;
   d.surfaces.push_back({.shape = room(squares),
-                        .material = DiffuseBsdf{Rgb(0.5f)},
+                        .material = DiffuseBsdf{Rgb(reflectance)},
                         .media = {},
                         .emission = std::nullopt,
                         .name = "room"});
-  d.lights.emplace_back(PointLight{{0.3f, 0.8f, -0.2f}, Rgb(1)});
+  d.lights.emplace_back(PointLight{lamp, Rgb(1)});
   return std::make_unique<Scene>(std::move(d));
 }
 
@@ -76,7 +80,8 @@ Ray random_ray(Sampler& sampler) {
 }
 
 void BM_Paths(benchmark::State& state, const std::string& name) {
-  const std::unique_ptr<Scene> scene = make_scene(state.range(0), state.range(1) ? 289 : 1);
+  const std::unique_ptr<Scene> scene =
+      make_scene(state.range(0), state.range(1) ? many_squares : 1);
   RenderSettings settings;
   settings.integrator = name;
   settings.max_depth = max_depth;
@@ -92,10 +97,25 @@ void BM_Paths(benchmark::State& state, const std::string& name) {
   state.SetItemsProcessed(state.iterations());
 }
 
+void BM_BareWalk(benchmark::State& state) {
+  const TriangleMesh mesh = room(state.range(1) ? many_squares : 1);
+  const Medium inside = medium(state.range(0));
+  const BareWalk kernel(mesh, inside, lamp);
+  RandomStream rng(1);
+  uint32_t i = 0;
+  for (auto _ : state) {
+    Sampler sampler(SamplerKind::sobol, 1, {0, 0}, i++);
+    benchmark::DoNotOptimize(
+        kernel.walk(random_ray(sampler), max_depth, albedo, reflectance, rng));
+  }
+  state.SetItemsProcessed(state.iterations());
+}
+
 void every_scene(benchmark::internal::Benchmark* benchmark) {
   // 0: fog, 1: thin smoke, 2: dense smoke; 0: twelve triangles, 1: a million.
   benchmark->ArgNames({"medium", "million"})->ArgsProduct({{0, 1, 2}, {0, 1}});
 }
+BENCHMARK(BM_BareWalk)->Apply(every_scene);
 BENCHMARK_CAPTURE(BM_Paths, volpath, "volpath")->Apply(every_scene);
 BENCHMARK_CAPTURE(BM_Paths, equiangular, "equiangular")->Apply(every_scene);
 BENCHMARK_CAPTURE(BM_Paths, jis, "jis")->Apply(every_scene);

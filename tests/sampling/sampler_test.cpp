@@ -191,5 +191,16 @@ TEST(Sobol, IntegratesSmoothFunctionsFaster) {
   EXPECT_LT(error(SamplerKind::sobol, 1024), error(SamplerKind::sobol, 64) / 1000);
 }
 
+TEST(Sampler, SkipsNumbersWithoutChangingLaterOnes) {
+  for (const SamplerKind kind : {SamplerKind::independent, SamplerKind::sobol}) {
+    Sampler all(kind, 7, {3, 4}, 5), some(kind, 7, {3, 4}, 5);
+    all.next_2d();
+    some.skip();
+    const float next = all.next_1d();
+    EXPECT_EQ(some.next_1d(), next);
+    EXPECT_NE(Sampler(kind, 7, {3, 4}, 5).next_1d(), next);
+  }
+}
+
 }  // namespace
 }  // namespace tyndall

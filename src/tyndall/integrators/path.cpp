@@ -181,7 +181,7 @@ bool Path::scatter() {
 bool Path::survives_roulette() {
   const float carried = max_component(beta_) / average(spectral_) * eta_scale_;
   if (depth_ <= roulette_free_depth || carried >= 1) return carried > 0;
-  if (sampler_.next_1d() >= carried) return false;
+  if (tracking_.next_1d() >= carried) return false;
   beta_ /= carried;
   return true;
 }

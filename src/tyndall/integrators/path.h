@@ -89,6 +89,8 @@ class Path {
   Rgb arriving(const SelectedLight& selected, const LightSample& sample, const Ray& shadow,
                const Medium* medium);
   std::optional<SelectedLight> select_light(Vec3 p, float u) const;
+  float number_for_light();
+  Vec2 numbers_on(const Light& light);
   float light_probability(Vec3 p, size_t light) const;
   bool is_left_to_connections(size_t light);
   float direct_weight(const LightEnd& end);

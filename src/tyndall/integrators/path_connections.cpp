@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The connections of a path to lights, and their weights.
 #include <algorithm>
+#include <type_traits>
 
 #include "tyndall/integrators/path.h"
 #include "tyndall/sampling/mis.h"
@@ -16,6 +17,27 @@ float Path::light_probability(Vec3 p, size_t light) const {
   return rules_.connections->light_choice().at_point(p).probability(light);
 }
 
+// To choose a light with: none is needed where there is no choice.
+float Path::number_for_light() {
+  if (scene_.lights().size() > 1) return sampler_.next_1d();
+  sampler_.skip();
+  return 0;
+}
+
+// To choose a point of the light with.
+Vec2 Path::numbers_on(const Light& light) {
+  const bool is_delta = std::visit(
+      [](const auto& l) {
+        using L = std::remove_cvref_t<decltype(l)>;
+        return std::is_same_v<L, PointLight> || std::is_same_v<L, SpotLight> ||
+               std::is_same_v<L, DistantLight>;
+      },
+      light.variant());
+  if (!is_delta) return sampler_.next_2d();
+  sampler_.skip();
+  return {};
+}
+
 // Whether paths with so many more vertices in media and on surfaces are wanted.
 bool Path::counts(int in_media, int on_surfaces) const {
   return depth_ + in_media + on_surfaces <= rules_.max_depth &&
@@ -25,7 +47,7 @@ bool Path::counts(int in_media, int on_surfaces) const {
 Path::Connection Path::connect_to(const Vertex& vertex, const SelectedLight& selected) {
   Connection connection{};
   const std::optional<LightSample> sample =
-      selected.light->sample(vertex.p(), sampler_.next_2d());
+      selected.light->sample(vertex.p(), numbers_on(*selected.light));
   if (!sample || !(sample->pdf > 0)) return connection;
   const Rgb f = vertex.eval(sample->wi);
   if (is_black(f)) return connection;
@@ -68,7 +90,7 @@ void Path::connect_vertex() {
       vertex_->glowing_medium() && counts(1))
     spend(Effort::glow, [&] { return connect_glow(); });
   const std::optional<SelectedLight> selected =
-      select_light(vertex_->p(), sampler_.next_1d());
+      select_light(vertex_->p(), number_for_light());
   if (!selected || !counts(0) || is_left_to_connections(selected->index)) return;
   const Connection connection = connect_to(*vertex_, *selected);
   if (is_black(connection.light)) return;
@@ -146,7 +168,7 @@ Rgb Path::leg_transmittance(Leg& leg, float t) {
 }
 
 Rgb Path::connect_single(Leg& leg) {
-  const std::optional<SelectedLight> selected = leg_.select_light(sampler_.next_1d());
+  const std::optional<SelectedLight> selected = leg_.select_light(number_for_light());
   const float u = sampler_.next_1d();
   if (!selected || leg_before_.reaches_dual(start_, selected->index)) return Rgb();
   const ConnectionLeg::Single* single = leg_.single(selected->index);

@@ -22,7 +22,7 @@ struct Path::ScatteredOnce {
 };
 
 Rgb Path::connect_dual(Leg& leg) {
-  const std::optional<SelectedLight> selected = leg_.select_light(sampler_.next_1d());
+  const std::optional<SelectedLight> selected = leg_.select_light(number_for_light());
   const float u_first = sampler_.next_1d(), u_last = sampler_.next_1d();
   const Vec2 u_direction = sampler_.next_2d();
   const ConnectionLeg::Double* dual = selected ? leg_.dual(selected->index) : nullptr;

@@ -25,6 +25,9 @@ class Sampler {
   /// Uniform in [0, 1)^2; takes one dimension pair, well distributed over the pixel's
   /// samples.
   Vec2 next_2d();
+  /// Leaves out one call of either, whose numbers nobody needs, so that later ones stay the
+  /// same.
+  void skip() { ++dimension_; }
   /// A stream for loops of unknown length (tracking), independent of all other dimensions.
   RandomStream fork();
 
