@@ -120,7 +120,8 @@ void BM_VisibilityBatch(benchmark::State& state) {
   VisibilityMapSettings settings;
   settings.resolution = static_cast<int>(state.range(1));
   VisibilityMap map(views[state.range(0)], settings);
-  map.trace_rows(0, map.rows(), [](const Ray& r) { return r.d.x > 0.3f ? 0.7f : 2.0f; });
+  map.trace_rows(0, map.rows(),
+                 [](const Ray& r, Vec2) { return r.d.x > 0.3f ? 0.7f : 2.0f; });
   map.finish();
   const std::vector<Ray> rays = random_rays();
   std::vector<float> t(64), out(64);

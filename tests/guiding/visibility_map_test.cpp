@@ -18,15 +18,15 @@ const Plate plate = perforated_plate();
 const Bounds3 bounds{{-2, -2, -1}, {2, 2, 2}};
 
 VisibilityMap::Trace trace_plate() {
-  return [](const Ray& ray) { return plate.distance(ray); };
+  return [](const Ray& ray, Vec2) { return plate.distance(ray); };
 }
 
 VisibilityMap traced(const LightView& view, int resolution = 256,
-                     const VisibilityMap::Origin& origin = {}) {
+                     const VisibilityMap::Trace& trace = trace_plate()) {
   VisibilityMapSettings settings;
   settings.resolution = resolution;
   VisibilityMap map(view, settings);
-  map.trace_rows(0, map.rows(), trace_plate(), origin);
+  map.trace_rows(0, map.rows(), trace);
   map.finish();
   return map;
 }
@@ -64,6 +64,26 @@ TEST(VisibilityMapTest, PredictsThePlateForAPointLight) {
   EXPECT_GT(s.dark, 0.985);
 }
 
+TEST(VisibilityMapTest, ASketchFindsTheEdgesWithFewRays) {
+  const Vec3 light{0, 0, 0};
+  VisibilityMapSettings settings;
+  settings.resolution = 512;
+  VisibilityMap map(LightView::around(light), settings);
+  int rays = 0;
+  const auto trace = [&](const Ray& ray, Vec2) {
+    ++rays;
+    return plate.distance(ray);
+  };
+  for (int row = 0; row < map.sketch_rows(); ++row) map.sketch_row(row, trace);
+  map.refine_rows(0, 200, trace);
+  map.refine_rows(200, 512, trace);
+  map.finish();
+  const Score s = score(map, [&](Vec3 p) { return plate.is_visible(light, p); });
+  EXPECT_GT(s.lit, 0.985);
+  EXPECT_GT(s.dark, 0.985);
+  EXPECT_LT(rays, 0.4 * 512 * 512 * 4);
+}
+
 TEST(VisibilityMapTest, PredictsThePlateForASpot) {
   const Vec3 light{0, 0, 0}, axis = normalize(Vec3{0.2f, 0, 1});
   const float cos_total = 0.7f;
@@ -79,6 +99,10 @@ TEST(VisibilityMapTest, PredictsThePlateForASpot) {
   EXPECT_GT(inside, 1000);
   EXPECT_GT(right, 0.98 * inside);
   EXPECT_EQ(map.visibility({0, 0, -1}), map.floor());
+  VisibilityMapSettings settings;
+  settings.resolution = 8;
+  settings.lit_outside = true;
+  EXPECT_EQ(VisibilityMap(map.view(), settings).visibility({0, 0, -1}), 1);
 }
 
 TEST(VisibilityMapTest, PredictsThePlateForParallelLight) {
@@ -92,9 +116,10 @@ TEST(VisibilityMapTest, PredictsThePlateForParallelLight) {
 // Half shadows of an area light: the mean over many points, against the share of its area.
 TEST(VisibilityMapTest, PredictsThePenumbraOfASmallAreaLight) {
   const float side = 0.06f;
-  const VisibilityMap map = traced(LightView::around({0, 0, 0}), 128, [&](Vec2 u) {
-    return Vec3{side * (u.x - 0.5f), side * (u.y - 0.5f), 0};
-  });
+  const auto trace = [&](const Ray& ray, Vec2 u) {
+    return plate.distance({{side * (u.x - 0.5f), side * (u.y - 0.5f), 0}, ray.d});
+  };
+  const VisibilityMap map = traced(LightView::around({0, 0, 0}), 128, trace);
   RandomStream random(9);
   RunningMoments error, squared;
   for (int i = 0; i < 20'000; ++i) {
@@ -197,7 +222,7 @@ TEST(VisibilityMapTest, UntracedMapsAndBadDistancesAreHarmless) {
   VisibilityMap map(LightView::around({0, 0, 0}), settings);
   EXPECT_EQ(map.visibility({1, 2, 3}), 1);
   EXPECT_EQ(map.visibility({0, 0, 0}), 1);
-  map.trace_rows(0, 8, [](const Ray&) { return std::nanf(""); });
+  map.trace_rows(0, 8, [](const Ray&, Vec2) { return std::nanf(""); });
   map.finish();
   EXPECT_EQ(map.visibility({1, 2, 3}), map.floor());
   EXPECT_GE(map.visibility({1e30f, 1e30f, 0}), map.floor());

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <boost/container/small_vector.hpp>
 #include <cassert>
 #include <cmath>
 
@@ -14,6 +15,8 @@ namespace tyndall {
 namespace {
 
 constexpr uint32_t max_resolution = 1 << 13;
+// Of the distances in neighbouring texels: what is more is an edge.
+constexpr float edge_ratio = 1.5f;
 
 /// Of every quarter of the sorted distances the middle one. Of two middle ones `upper`
 /// chooses: always the same would predict too much or too little on average.
@@ -61,35 +64,74 @@ VisibilityMap::VisibilityMap(const LightView& view, const VisibilityMapSettings&
   }
   texels_.resize(static_cast<size_t>(size) + 1,
                  Texel{{infinity, infinity, infinity, infinity}});
-  texels_.back() = Texel{{-1, -1, -1, -1}};
+  const float outside = settings.lit_outside ? infinity : -1;
+  texels_.back() = Texel{{outside, outside, outside, outside}};
 }
 
-VisibilityMap::Texel VisibilityMap::trace_texel(int x, int y, const Trace& trace,
-                                                const Origin& origin) const {
+VisibilityMap::Texel VisibilityMap::trace_texel(int x, int y, int side,
+                                                const Trace& trace) const {
   const auto rays = static_cast<uint32_t>(rays_per_texel_);
   RandomStream random(hash(seed_, static_cast<uint64_t>(x), static_cast<uint64_t>(y)));
-  std::vector<float> distances(rays);
+  boost::container::small_vector<float, 16> distances(rays);
   for (uint32_t i = 0; i < rays; ++i) {
     // Stratified: columns of width 1 / rays, two rows.
     const float column =
         (static_cast<float>(i) + random.next_1d()) / static_cast<float>(rays);
     const float row = 0.5f * (static_cast<float>(i & 1) + random.next_1d());
-    Ray ray = view_.ray(Vec2{static_cast<float>(x) + column, static_cast<float>(y) + row} *
-                        (1 / static_cast<float>(resolution_)));
-    if (origin) ray.o = origin(random.next_2d());
-    const float distance = trace(ray);
+    const Ray ray =
+        view_.ray(Vec2{static_cast<float>(x) + column, static_cast<float>(y) + row} *
+                  (1 / static_cast<float>(side)));
+    const float distance = trace(ray, random.next_2d());
     distances[i] = distance > 0 ? distance : 0;  // NaN too
   }
-  return {quartiles(distances, (x + y) % 2 == 1)};
+  return {quartiles({distances.data(), rays}, (x + y) % 2 == 1)};
 }
 
-void VisibilityMap::trace_rows(int begin, int end, const Trace& trace,
-                               const Origin& origin) {
+size_t VisibilityMap::offset_of(int side) const {
+  const int index = std::countr_zero(static_cast<unsigned>(resolution_ / side));
+  return static_cast<size_t>(level_offset_[static_cast<size_t>(index)]);
+}
+
+void VisibilityMap::trace_rows(int begin, int end, const Trace& trace) {
   assert(0 <= begin && begin <= end && end <= resolution_);
+  Texel* texels = &texels_[offset_of(resolution_)];
   for (int y = begin; y < end; ++y)
     for (int x = 0; x < resolution_; ++x)
-      texels_[static_cast<size_t>(y) * static_cast<size_t>(resolution_) +
-              static_cast<size_t>(x)] = trace_texel(x, y, trace, origin);
+      texels[y * resolution_ + x] = trace_texel(x, y, resolution_, trace);
+}
+
+void VisibilityMap::sketch_row(int row, const Trace& trace) {
+  const int side = sketch_rows();
+  Texel* sketch = &texels_[offset_of(side)];
+  for (int x = 0; x < side; ++x) sketch[row * side + x] = trace_texel(x, row, side, trace);
+}
+
+void VisibilityMap::refine_rows(int begin, int end, const Trace& trace) {
+  assert(0 <= begin && begin <= end && end <= resolution_);
+  const int side = sketch_rows(), factor = resolution_ / side;
+  Texel* texels = &texels_[offset_of(resolution_)];
+  const Texel* sketch = &texels_[offset_of(side)];
+  for (int y = begin; y < end; ++y)
+    for (int x = 0; x < resolution_; ++x) {
+      const int coarse_x = x / factor, coarse_y = y / factor;
+      texels[y * resolution_ + x] = is_edge(coarse_x, coarse_y)
+                                        ? trace_texel(x, y, resolution_, trace)
+                                        : sketch[coarse_y * side + coarse_x];
+    }
+}
+
+// Whether the distances around a texel of the sketch jump. The view's own borders are no
+// edges: what lies beyond them is not known.
+bool VisibilityMap::is_edge(int x, int y) const {
+  const int side = sketch_rows();
+  const Texel* sketch = &texels_[offset_of(side)];
+  float least = infinity, most = 0;
+  for (int v = std::max(y - 1, 0); v <= std::min(y + 1, side - 1); ++v)
+    for (int u = std::max(x - 1, 0); u <= std::min(x + 1, side - 1); ++u) {
+      least = std::min(least, sketch[v * side + u].distance.front());
+      most = std::max(most, sketch[v * side + u].distance.back());
+    }
+  return most > edge_ratio * least;
 }
 
 void VisibilityMap::finish() {
@@ -148,6 +190,7 @@ void VisibilityMap::write(ByteWriter& out) const {
   view_.write(out);
   out.write(static_cast<uint32_t>(resolution_));
   out.write(floor_);
+  out.write(static_cast<uint32_t>(texels_.back().distance[0] > 0));
   const size_t finest = static_cast<size_t>(resolution_) * static_cast<size_t>(resolution_);
   for (size_t i = 0; i < finest; ++i)
     for (const float d : texels_[i].distance) out.write(d);
@@ -158,6 +201,7 @@ std::optional<VisibilityMap> VisibilityMap::read(ByteReader& in) {
   VisibilityMapSettings settings;
   const auto resolution = in.read_as<uint32_t>();
   in.read(settings.floor);
+  settings.lit_outside = in.read_as<uint32_t>() != 0;
   const size_t texels = size_t{resolution} * resolution;
   if (in.failed() || !std::has_single_bit(resolution) || resolution > max_resolution ||
       in.remaining() < texels * sizeof(Texel))

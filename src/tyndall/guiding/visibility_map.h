@@ -18,6 +18,7 @@ struct VisibilityMapSettings {
   int rays_per_texel = 4;  ///< a multiple of four
   float floor = 0.05f;     ///< least predicted visibility: the price of being wrong
   uint64_t seed = 0;
+  bool lit_outside = false;  ///< what to expect out of the view: light, or none
 };
 
 /// Predicts which share of a light a point sees, from rays that were traced out of the
@@ -29,11 +30,9 @@ struct VisibilityMapSettings {
 /// never bias, because it is never below the floor.
 class VisibilityMap {
  public:
-  /// Distance from `o` to the first opaque surface along the unit vector `d`; infinity if
-  /// there is none.
-  using Trace = std::function<float(const Ray& ray)>;
-  /// A point of an area light, for a point of the unit square.
-  using Origin = std::function<Vec3(Vec2 u)>;
+  /// How far from the light what leaves it along `ray` gets; infinity if nothing stops it,
+  /// zero where the light does not shine. An area light chooses one of its points by `u`.
+  using Trace = std::function<float(const Ray& ray, Vec2 u)>;
 
   /// Everything visible, until traced. Sizes: 16 bytes a texel, all levels 4/3 of the
   /// finest.
@@ -41,11 +40,19 @@ class VisibilityMap {
 
   int rows() const { return resolution_; }
   /// Traces rows [begin, end) of the finest level. Different rows may be traced by
-  /// different threads; the result does not depend on how they are divided. Area lights
-  /// give `origin`; their rays leave from all over the light, in parallel.
-  void trace_rows(int begin, int end, const Trace& trace, const Origin& origin = {});
+  /// different threads; the result does not depend on how they are divided.
+  void trace_rows(int begin, int end, const Trace& trace);
   /// Builds the coarser levels; to be called once all rows are traced.
   void finish();
+
+  /// Instead of tracing all rows: first the rows of a level sketch_factor times coarser,
+  /// all of them, then the finest rows, where only texels near an edge of the sketch are
+  /// traced; the others take over what it found. A tenth to a third of the rays, for nearly
+  /// the same map.
+  static constexpr int sketch_factor = 4;
+  int sketch_rows() const { return std::max(resolution_ / sketch_factor, 1); }
+  void sketch_row(int row, const Trace& trace);
+  void refine_rows(int begin, int end, const Trace& trace);
 
   /// Share of the light that the point sees, in [floor, 1]; the mean over a texel of
   /// `level`.
@@ -74,7 +81,9 @@ class VisibilityMap {
     std::array<float, 4> distance;  // ascending
   };
 
-  Texel trace_texel(int x, int y, const Trace& trace, const Origin& origin) const;
+  Texel trace_texel(int x, int y, int side, const Trace& trace) const;
+  bool is_edge(int x, int y) const;
+  size_t offset_of(int side) const;
   int32_t out_of_cone() const { return static_cast<int32_t>(texels_.size()) - 1; }
 
   LightView view_;

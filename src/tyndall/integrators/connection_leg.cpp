@@ -10,20 +10,16 @@ namespace {
 // Connections look no further than the proxy lets this share of the light through.
 constexpr float end_transmittance = 1e-5f;
 
-// Predicted visibility is never below this: the price of being wrong.
-constexpr float visibility_floor = 0.02f;
-constexpr size_t visibility_bytes = size_t{64} << 20;
-
 // The share of the samples that does not trust the bins.
 constexpr float floor_share = 0.1f;
+// The same where they hold predicted visibility, whose own floor adds to it.
+constexpr float floor_share_of_visible = 0.03f;
 
 }  // namespace
 
 ConnectionContext::ConnectionContext(const Scene& scene, const ConnectionSettings& settings)
     : scene_(&scene), settings_(settings), light_choice_(scene.lights(), scene.bounds()) {
-  if (settings.visibility)
-    visibility_ =
-        std::make_unique<const LightVisibility>(scene, visibility_bytes, visibility_floor);
+  if (settings.visibility) visibility_ = std::make_unique<const LightVisibility>(scene);
   if (settings.lit_surfaces > 0) lit_.emplace(scene, settings.lit_surfaces);
   if (settings.direction) guiding_ = std::make_unique<DirectionGuiding>(scene, settings);
   for (const Medium& medium : scene.description().media) {
@@ -111,13 +107,15 @@ std::optional<EquiangularSampling> ConnectionLeg::useful_base(size_t light) cons
 
 ConnectionLeg::Single ConnectionLeg::bin_single(size_t light,
                                                 const EquiangularSampling& base) const {
-  const DistanceTaps<32> taps = base.taps<32>();
-  DistanceWeights<32> factors = weights(taps, true);
-  if (const LightVisibility* visibility = context_->visibility()) {
-    const float angle = base.integral() * base.segment().h();
-    visibility->multiply(light, ray_, taps.t, angle / 32, factors.values);
-  }
-  return Single(base, factors, floor_share);
+  const DistanceWeights<32> factors = weights(base.taps<32>(), true);
+  if (!context_->visibility()) return Single(base, factors, floor_share);
+  // What varies fast is looked at more often than what varies slowly.
+  constexpr int taps = 128;
+  DistanceWeights<64> visible = factors.spread<64>();
+  const float angle = base.integral() * base.segment().h();
+  context_->visibility()->multiply(light, ray_, base.taps<taps>().t, angle / taps,
+                                   visible.values);
+  return Single(base, visible, floor_share_of_visible);
 }
 
 const ConnectionLeg::Single* ConnectionLeg::single(size_t light) {

@@ -100,7 +100,7 @@ class ConnectionLeg {
   std::optional<Vec3> pivot(size_t light) const { return (*pivots_)(light); }
 
   /// The last vertex before the light. Null where connections to it would be of no use.
-  using Single = BinnedDistance<EquiangularSampling, 32>;
+  using Single = BinnedDistance<EquiangularSampling, 64>;
   const Single* single(size_t light);
   /// Whether single(light) can put a vertex at t: its bins are not needed for that.
   bool reaches_single(size_t light, float t);

@@ -6,79 +6,76 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cassert>
+
+#include "tyndall/integrators/light_aim.h"
+#include "tyndall/integrators/pilot_points.h"
 
 namespace tyndall {
 namespace {
 
-constexpr int max_resolution = 256, min_resolution = 16;
-constexpr size_t max_batch = 64;
-constexpr int max_own_hits = 8;
+constexpr unsigned max_resolution = 512, min_resolution = 16;
+constexpr size_t max_taps = 256;
 
-LightView view_of(const Light& light, const LightExtent& extent) {
-  if (const auto* spot = std::get_if<SpotLight>(&light.variant()))
-    return LightView::cone(spot->p, spot->axis, spot->cos_total);
-  return LightView::around(extent.box.center());
+int resolution_for(double texels) {
+  const auto side = static_cast<unsigned>(std::sqrt(texels));
+  return static_cast<int>(std::bit_floor(std::clamp(side, min_resolution, max_resolution)));
 }
 
-// Distance to the first opaque surface that is not the light itself.
-float distance_to_occluder(const Scene& scene, const Light& light, Ray ray) {
-  float t = 0;
-  for (int i = 0; i < max_own_hits; ++i) {
-    const std::optional<SurfaceHit> hit = scene.intersect_opaque(ray, infinity);
-    if (!hit) return infinity;
-    t += hit->t;
-    if (hit->light != &light) return t;
-    ray.o = offset_origin(hit->point.p, hit->point.ng, ray.d);
-  }
-  return t;
-}
-
-std::unique_ptr<const VisibilityMap> trace_map(const Scene& scene, const Light& light,
-                                               const VisibilityMapSettings& settings) {
-  const std::optional<LightExtent> extent = light.extent();
-  if (!extent) return nullptr;
-  auto map = std::make_unique<VisibilityMap>(view_of(light, *extent), settings);
-  VisibilityMap::Origin origin;
-  if (std::holds_alternative<AreaLight>(light.variant()))
-    origin = [&](Vec2 u) {
-      const std::optional<LightPoint> point = light.sample_point(u);
-      return point ? point->on.p : extent->box.center();
-    };
-  tbb::parallel_for(0, map->rows(), [&](int row) {
-    map->trace_rows(
-        row, row + 1,
-        [&](const Ray& ray) { return distance_to_occluder(scene, light, ray); }, origin);
-  });
+std::unique_ptr<const VisibilityMap> trace_map(const LightAim& aim,
+                                               VisibilityMapSettings settings) {
+  settings.lit_outside = aim.is_lit_outside();
+  auto map = std::make_unique<VisibilityMap>(aim.view(), settings);
+  const auto trace = [&](const Ray& ray, Vec2 u) { return aim.reach(ray, u); };
+  tbb::parallel_for(0, map->sketch_rows(), [&](int row) { map->sketch_row(row, trace); });
+  tbb::parallel_for(0, map->rows(),
+                    [&](int row) { map->refine_rows(row, row + 1, trace); });
   map->finish();
   return map;
 }
 
 }  // namespace
 
-LightVisibility::LightVisibility(const Scene& scene, size_t max_bytes, float floor) {
-  const size_t count = std::max<size_t>(scene.lights().size(), 1);
-  VisibilityMapSettings settings;
-  settings.floor = floor;
-  settings.resolution = max_resolution;
-  // Four distances a texel, and a third more for the pyramid.
-  constexpr size_t bytes_per_texel = 22;
-  while (settings.resolution > min_resolution &&
-         count * bytes_per_texel * static_cast<size_t>(sqr(settings.resolution)) >
-             max_bytes)
-    settings.resolution /= 2;
-  for (const Light& light : scene.lights())
-    maps_.push_back(trace_map(scene, light, settings));
+LightVisibility::LightVisibility(const Scene& scene,
+                                 const LightVisibilitySettings& settings) {
+  const std::vector<Vec3> points = pilot_points(scene);
+  const auto power_of = [&](const Light& light) {
+    return light.is_environment() ? 0.0
+                                  : double{luminance(light.power(scene.bounds().radius()))};
+  };
+  double power = 0;
+  for (const Light& light : scene.lights()) power += power_of(light);
+  for (const Light& light : scene.lights()) {
+    maps_.emplace_back();
+    if (light.is_environment() || points.empty()) continue;
+    const double share = power > 0 ? power_of(light) / power : 0;
+    const VisibilityMapSettings map{
+        .resolution = resolution_for(share * static_cast<double>(settings.texels)),
+        .floor = settings.floor};
+    maps_.back() = trace_map(LightAim(scene, light, points), map);
+  }
 }
 
 void LightVisibility::multiply(size_t light, const Ray& ray, std::span<const float> t,
                                float footprint, std::span<float> weights) const {
   const VisibilityMap* map = maps_[light].get();
   if (!map) return;
-  assert(t.size() <= max_batch);
-  std::array<float, max_batch> visibility;
-  const std::span<float> out(visibility.data(), t.size());
-  map->visibility(ray, t, out, map->level_of(footprint));
-  for (size_t i = 0; i < t.size(); ++i) weights[i] *= out[i];
+  assert(t.size() <= max_taps && t.size() % weights.size() == 0);
+  std::array<float, max_taps> visibility;
+  map->visibility(ray, t, std::span<float>(visibility.data(), t.size()),
+                  map->level_of(footprint));
+  const size_t taps = t.size() / weights.size();
+  const float scale = 1 / static_cast<float>(taps);
+  for (size_t i = 0; i < weights.size(); ++i) {
+    float sum = 0;
+    for (size_t j = 0; j < taps; ++j) sum += visibility[i * taps + j];
+    weights[i] *= sum * scale;
+  }
+}
+
+size_t LightVisibility::maps() const {
+  const auto count = std::ranges::count_if(maps_, [](const auto& map) { return !!map; });
+  return static_cast<size_t>(count);
 }
 
 size_t LightVisibility::memory() const {

@@ -10,23 +10,36 @@
 
 namespace tyndall {
 
-/// What each finite light sees, predicted: one visibility map per light, traced once.
+struct LightVisibilitySettings {
+  float floor = 0.005f;  ///< least predicted visibility: the price of being wrong
+  /// Of all lights together. Bounds memory, 22 bytes each, and time, four rays each at
+  /// the edges of shadows.
+  size_t texels = size_t{1} << 21;
+};
+
+/// What each light sees, predicted: one visibility map per light, traced once. Environments
+/// have none.
+///
+/// Maps look where camera paths come by: a far light spends its texels on the part of its
+/// sky that the scene takes up. Bright lights get finer maps than dim ones.
 ///
 /// Immutable after construction, safe to use from all threads.
 class LightVisibility {
  public:
-  /// Maps of all lights together take at most `max_bytes`: many lights get coarser maps.
-  /// Traces in parallel.
-  LightVisibility(const Scene& scene, size_t max_bytes, float floor);
+  /// Traces in parallel. Throws nothing but std::bad_alloc.
+  LightVisibility(const Scene& scene, const LightVisibilitySettings& settings = {});
 
-  /// Multiplies weights[i] by the visibility of ray.at(t[i]) from the light. `footprint` is
-  /// the angle between neighbouring points, seen from the light [rad].
+  /// Multiplies each weight by the mean visibility of its taps from the light: t.size() is
+  /// a multiple of weights.size(), neighbours share a weight; at most 64 weights.
+  /// `footprint` is the angle between neighbouring taps, seen from the light [rad], or
+  /// their distance if the light is at infinity.
   void multiply(size_t light, const Ray& ray, std::span<const float> t, float footprint,
                 std::span<float> weights) const;
+  size_t maps() const;
   size_t memory() const;  ///< [bytes]
 
  private:
-  std::vector<std::unique_ptr<const VisibilityMap>> maps_;  // null for lights at infinity
+  std::vector<std::unique_ptr<const VisibilityMap>> maps_;  // null for environments
 };
 
 }  // namespace tyndall

@@ -109,6 +109,10 @@ void PathTracer::report(RenderStatistics& statistics) const {
   if (!budget_) return;
   statistics.counters["connections.single"] = double{budget_->count(Effort::single, 0)};
   statistics.counters["connections.dual"] = double{budget_->count(Effort::dual, 0)};
+  if (const LightVisibility* visibility = connections_->visibility()) {
+    statistics.counters["visibility.maps"] = static_cast<double>(visibility->maps());
+    statistics.counters["visibility.bytes"] = static_cast<double>(visibility->memory());
+  }
   if (connections_->lit_surfaces())
     statistics.counters["connections.lit"] =
         double{budget_->count(Effort::lit_from_leg, 0)};

@@ -53,11 +53,8 @@ class RenderJob {
       : scene_(scene),
         settings_(settings),
         options_(options),
-        integrator_(make_integrator(scene, settings)),
         filter_(settings.filter),
-        film_(settings.resolution, settings.crop_min, settings.crop_max) {
-    statistics_.training_seconds = clock_.seconds();
-  }
+        film_(settings.resolution, settings.crop_min, settings.crop_max) {}
 
   RenderResult run() {
     tbb::task_arena arena(options_.threads > 0 ? options_.threads
@@ -65,7 +62,11 @@ class RenderJob {
     // An arena of more slots than the default concurrency needs workers to fill them.
     const tbb::global_control workers(tbb::global_control::max_allowed_parallelism,
                                       static_cast<size_t>(arena.max_concurrency()));
-    arena.execute([&] { run_passes(); });
+    arena.execute([&] {
+      integrator_ = make_integrator(scene_, settings_);
+      statistics_.training_seconds = clock_.seconds();
+      run_passes();
+    });
     if (options_.on_progress) report_progress(done_, done_);
     statistics_.threads = arena.max_concurrency();
     statistics_.seconds = clock_.seconds();

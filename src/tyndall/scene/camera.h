@@ -23,6 +23,7 @@ class PerspectiveCamera {
   /// The ray through `p_film` [pixels, (0, 0) at the top left corner of the full picture].
   Ray ray(Vec2 p_film, Vec2 u_lens) const;
   Vec3 position() const { return position_; }
+  Vec2i resolution() const { return resolution_; }  ///< of the full picture [pixels]
   const Settings& settings() const { return settings_; }
   /// For image metadata, rows of column-vector matrices.
   Transform camera_from_world() const;

@@ -30,14 +30,15 @@ template <DistanceTechnique Base, int Bins>
 class BinnedDistance {
  public:
   /// The weight of a bin is the mean of its K / Bins weights: several taps keep a bin that
-  /// is lit in part from being taken for dark. Weights that are negative or no numbers
-  /// count as zero; if all together are less than 1e-30, the base technique remains. The
-  /// share `floor` in (0, 1] of the samples is spread as the base technique would.
+  /// is lit in part from being taken for dark. With fewer taps neighbouring bins share.
+  /// Weights that are negative or no numbers count as zero; if all together are less than
+  /// 1e-30, the base technique remains. The share `floor` in (0, 1] of the samples is
+  /// spread as the base technique would.
   template <int K>
   BinnedDistance(const Base& base, const DistanceWeights<K>& weights, float floor)
       : base_(base) {
-    static_assert(K % Bins == 0);
-    constexpr int taps = K / Bins;
+    static_assert(K % Bins == 0 || Bins % K == 0);
+    constexpr int taps = std::max(K / Bins, 1), bins_per_tap = std::max(Bins / K, 1);
     alignas(32) std::array<float, K> clean;
     for (int i = 0; i < K; ++i) {
       const float w = weights.values[i];
@@ -45,7 +46,7 @@ class BinnedDistance {
     }
     std::array<float, Bins> bin{};
     for (int i = 0; i < Bins; ++i)
-      for (int j = 0; j < taps; ++j) bin[i] += clean[i * taps + j];
+      for (int j = 0; j < taps; ++j) bin[i] += clean[i / bins_per_tap * taps + j];
     accumulate(bin, floor);
   }
 

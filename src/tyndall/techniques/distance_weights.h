@@ -22,6 +22,15 @@ struct DistanceWeights {
     return weights;
   }
 
+  /// Each weight for the taps of a denser set around it.
+  template <int N>
+  DistanceWeights<N> spread() const {
+    static_assert(N % K == 0);
+    DistanceWeights<N> weights;
+    for (int i = 0; i < N; ++i) weights.values[i] = values[i / (N / K)];
+    return weights;
+  }
+
   /// Transmittance along the ray and from the tap to the pivot in a homogeneous medium.
   DistanceWeights& multiply_transmittance(const DistanceTaps<K>& taps, float sigma_t) {
     for (int i = 0; i < K; ++i)
