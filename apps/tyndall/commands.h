@@ -12,6 +12,7 @@ void add_bench_command(Program& program);
 void add_compare_command(Program& program);
 void add_convert_command(Program& program);
 void add_info_command(Program& program);
+void add_inspect_command(Program& program);
 void add_render_command(Program& program);
 void add_report_command(Program& program);
 

@@ -12,5 +12,6 @@ int main(int argc, char** argv) {
   add_bench_command(program);
   add_report_command(program);
   add_info_command(program);
+  add_inspect_command(program);
   return static_cast<int>(program.run(argc, argv));
 }

@@ -100,7 +100,10 @@ void declare_output(Command& command, RenderArguments& a) {
       .option("--exposure", store(&a.exposure, parse_exposure),
               "PNG: brighten by so many stops", {.value = "STOPS", .group = group})
       .option("--tone", &a.tone, "PNG: how values above 1 are brought into range",
-              {.choices = {"plain", "filmic"}, .group = group});
+              {.choices = {"plain", "filmic"}, .group = group})
+      .option("--dump-guiding", &a.guiding,
+              "write what the integrator has learned, for tyndall inspect",
+              {.value = "FILE", .group = group});
 }
 
 void declare_running(Command& command, RenderArguments& a) {

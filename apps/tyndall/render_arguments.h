@@ -17,6 +17,7 @@ namespace tyndall::app {
 struct RenderArguments {
   std::string scene;
   std::vector<std::string> outputs;
+  std::optional<std::string> guiding;  ///< where to write what was learned
 
   std::optional<uint32_t> samples_per_pixel;
   std::optional<double> time_limit;  ///< [s]

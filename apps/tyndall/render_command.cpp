@@ -51,6 +51,7 @@ RenderResult run_render(const Scene& scene, const RenderArguments& arguments,
   options.threads = arguments.threads;
   options.time_limit = arguments.time_limit;
   options.stop = &stop.flag();
+  options.dump_guiding = arguments.guiding.has_value();
   options.on_progress = [&printer](const RenderProgress& progress) {
     printer.update(progress);
   };
@@ -78,6 +79,7 @@ ExitCode render_and_write(const RenderArguments& arguments, RenderReport report,
   add_metadata(image, scene.camera(), report.settings, report.statistics, report.scene,
                report.command_line);
   write_outputs(image, report.outputs, write_options(arguments));
+  if (arguments.guiding) write_bytes(result.guiding, *arguments.guiding);
   print_report(report, arguments, image);
   return report.statistics.stopped_early ? ExitCode::stopped : ExitCode::done;
 }
@@ -85,6 +87,7 @@ ExitCode render_and_write(const RenderArguments& arguments, RenderReport report,
 ExitCode run_render_command(const RenderArguments& arguments,
                             const std::string& command_line) {
   check_outputs(arguments.outputs);
+  if (arguments.guiding) check_bytes_writable(*arguments.guiding);
   SceneInput input(arguments.scene, arguments.strict, arguments.quiet);
   RenderReport report;
   report.scene = arguments.scene;

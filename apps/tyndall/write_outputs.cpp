@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "apps/tyndall/exit_code.h"
+#include "tyndall/image/whole_file.h"
 
 namespace tyndall::app {
 
@@ -47,6 +48,22 @@ void write_outputs(const Image& image, const std::vector<std::string>& paths,
     }
   }
   if (!failures.empty()) throw OutputError(fmt::format("{}; {}", failures, rescue(image)));
+}
+
+void check_bytes_writable(const std::string& path) {
+  try {
+    check_can_write_file(path);
+  } catch (const std::runtime_error& error) {
+    throw OutputError(error.what());
+  }
+}
+
+void write_bytes(std::span<const std::byte> bytes, const std::string& path) {
+  try {
+    write_whole_file(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  } catch (const std::runtime_error& error) {
+    throw OutputError(error.what());
+  }
 }
 
 }  // namespace tyndall::app

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -15,5 +17,9 @@ void check_outputs(const std::vector<std::string>& paths);
 /// files instead, the others are still written, and OutputError tells all that.
 void write_outputs(const Image& image, const std::vector<std::string>& paths,
                    const WriteOptions& options);
+
+/// The same for a file that is no image. Both throw OutputError.
+void check_bytes_writable(const std::string& path);
+void write_bytes(std::span<const std::byte> bytes, const std::string& path);
 
 }  // namespace tyndall::app

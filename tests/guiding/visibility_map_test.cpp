@@ -68,6 +68,7 @@ TEST(VisibilityMapTest, ASketchFindsTheEdgesWithFewRays) {
   const Vec3 light{0, 0, 0};
   VisibilityMapSettings settings;
   settings.resolution = 512;
+  settings.edge_depth = 0.5f;
   VisibilityMap map(LightView::around(light), settings);
   int rays = 0;
   const auto trace = [&](const Ray& ray, Vec2) {

@@ -24,6 +24,10 @@ class ByteWriter {
   void write(double value) { write(std::bit_cast<uint64_t>(value)); }
   void write(Vec3 v) { write(v.x), write(v.y), write(v.z); }
 
+  void append(std::span<const std::byte> bytes) {
+    bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
+  }
+
   const std::vector<std::byte>& bytes() const { return bytes_; }
 
  private:
@@ -55,6 +59,14 @@ class ByteReader {
     T value;
     read(value);
     return value;
+  }
+
+  /// The next `size` bytes; none, and the reader failed, if fewer are left.
+  std::span<const std::byte> take(size_t size) {
+    if (bytes_.size() < size) return fail(), bytes_;
+    const std::span<const std::byte> taken = bytes_.first(size);
+    bytes_ = bytes_.subspan(size);
+    return taken;
   }
 
   bool failed() const { return failed_; }

@@ -15,8 +15,6 @@ namespace tyndall {
 namespace {
 
 constexpr uint32_t max_resolution = 1 << 13;
-// Of the distances in neighbouring texels: what is more is an edge.
-constexpr float edge_ratio = 1.5f;
 
 /// Of every quarter of the sorted distances the middle one. Of two middle ones `upper`
 /// chooses: always the same would predict too much or too little on average.
@@ -53,6 +51,7 @@ VisibilityMap::VisibilityMap(const LightView& view, const VisibilityMapSettings&
       resolution_(settings.resolution),
       rays_per_texel_(settings.rays_per_texel),
       floor_(settings.floor),
+      edge_depth_(settings.edge_depth),
       seed_(settings.seed) {
   assert(std::has_single_bit(static_cast<unsigned>(resolution_)) &&
          resolution_ <= static_cast<int>(max_resolution));
@@ -131,7 +130,7 @@ bool VisibilityMap::is_edge(int x, int y) const {
       least = std::min(least, sketch[v * side + u].distance.front());
       most = std::max(most, sketch[v * side + u].distance.back());
     }
-  return most > edge_ratio * least;
+  return most > least + edge_depth_;
 }
 
 void VisibilityMap::finish() {

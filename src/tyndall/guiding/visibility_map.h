@@ -18,6 +18,7 @@ struct VisibilityMapSettings {
   int rays_per_texel = 4;  ///< a multiple of four
   float floor = 0.05f;     ///< least predicted visibility: the price of being wrong
   uint64_t seed = 0;
+  float edge_depth = 0.1f;  ///< jumps of the distance that matter [scene units]
   bool lit_outside = false;  ///< what to expect out of the view: light, or none
 };
 
@@ -66,6 +67,11 @@ class VisibilityMap {
   /// or a length for parallel light. In equi-angular bins that angle is the same for all
   /// bins.
   int level_of(float footprint) const;
+  /// Of a texel of the finest level: at which distances its rays met an occluder,
+  /// ascending; infinity where none did, zero where the light does not shine.
+  const std::array<float, 4>& distances(int x, int y) const {
+    return texels_[static_cast<size_t>(y * resolution_ + x)].distance;
+  }
   float floor() const { return floor_; }
   const LightView& view() const { return view_; }
   size_t memory() const { return texels_.size() * sizeof(Texel); }  ///< [bytes]
@@ -88,7 +94,7 @@ class VisibilityMap {
 
   LightView view_;
   int resolution_, rays_per_texel_;
-  float floor_;
+  float floor_, edge_depth_;
   uint64_t seed_;
   std::vector<int32_t> level_offset_;
   std::vector<Texel>

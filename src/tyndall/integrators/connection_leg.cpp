@@ -13,13 +13,16 @@ constexpr float end_transmittance = 1e-5f;
 // The share of the samples that does not trust the bins.
 constexpr float floor_share = 0.1f;
 // The same where they hold predicted visibility, whose own floor adds to it.
-constexpr float floor_share_of_visible = 0.03f;
+constexpr float floor_share_of_visible = 0.05f;
 
 }  // namespace
 
 ConnectionContext::ConnectionContext(const Scene& scene, const ConnectionSettings& settings)
     : scene_(&scene), settings_(settings), light_choice_(scene.lights(), scene.bounds()) {
-  if (settings.visibility) visibility_ = std::make_unique<const LightVisibility>(scene);
+  if (settings.visibility)
+    visibility_ = settings.known_visibility
+                      ? settings.known_visibility
+                      : std::make_shared<const LightVisibility>(scene);
   if (settings.lit_surfaces > 0) lit_.emplace(scene, settings.lit_surfaces);
   if (settings.direction) guiding_ = std::make_unique<DirectionGuiding>(scene, settings);
   for (const Medium& medium : scene.description().media) {

@@ -45,7 +45,7 @@ class ConnectionContext {
   const Scene* scene_;
   ConnectionSettings settings_;
   LightChoice light_choice_;
-  std::unique_ptr<const LightVisibility> visibility_;
+  std::shared_ptr<const LightVisibility> visibility_;
   std::optional<LitSurfaceSampling> lit_;
   std::unique_ptr<DirectionGuiding> guiding_;
   std::map<const Medium*, std::shared_ptr<const ScatteringTables>> tables_;

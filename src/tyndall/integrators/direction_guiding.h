@@ -37,6 +37,7 @@ class DirectionGuiding {
   /// pixel. Returns up to which sample the render may go on.
   uint32_t prepare(uint32_t first);
   void report(RenderStatistics& statistics) const;
+  const RecordCache& records() const { return cache_; }
 
  private:
   ConnectionSettings settings_;

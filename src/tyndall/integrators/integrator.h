@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 
+#include "tyndall/guiding/guiding_file.h"
 #include "tyndall/image/film.h"
 #include "tyndall/integrators/render.h"
 #include "tyndall/sampling/sampler.h"
@@ -30,6 +31,11 @@ class Integrator {
 
   /// Adds counters and notes.
   virtual void report(RenderStatistics& /*statistics*/) const {}
+
+  /// Whether dump() has something to write.
+  virtual bool learns() const { return false; }
+  /// Writes what it has learned.
+  virtual void dump(GuidingFileWriter& /*out*/) const {}
 };
 
 /// Throws std::invalid_argument for an unknown name or option.

@@ -11,6 +11,8 @@ namespace {
 constexpr int max_own_hits = 8;
 // Of the points so many may lie out of the view, lest a few far ones coarsen the map.
 constexpr float outlier_share = 0.005f;
+// Of the range of the points' distances from the light: smaller jumps do not matter.
+constexpr float edge_share = 0.03f;
 
 float quantile(std::vector<float>& values, float share) {
   const auto last = static_cast<float>(values.size() - 1);
@@ -43,6 +45,8 @@ void LightAim::aim_finite(std::span<const Vec3> points) {
   view_ = LightView::around(center_);
   if (distances.empty()) return;
   focus_ = quantile(distances, 0.5f);
+  edge_depth_ = edge_share * (quantile(distances, 1 - outlier_share) -
+                              quantile(distances, outlier_share));
   const auto* spot = std::get_if<SpotLight>(&light_->variant());
   if (spot) view_ = LightView::cone(center_, spot->axis, spot->cos_total);
   if (!(length(sum) > 0)) return;
@@ -64,6 +68,7 @@ void LightAim::aim_parallel(const Light& light, std::span<const Vec3> points) {
   Bounds3 box;
   for (const Vec3 p : points) box.extend(p);
   const std::optional<LightSample> sample = light.sample(box.center(), {0.5f, 0.5f});
+  edge_depth_ = edge_share * 2 * box.radius();
   view_ = LightView::parallel(sample ? sample->wi : Vec3{0, 0, 1}, box);
   beyond_ =
       2 * scene_->bounds().radius() + length(scene_->bounds().center() - box.center());

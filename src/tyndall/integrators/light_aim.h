@@ -18,6 +18,8 @@ class LightAim {
   const LightView& view() const { return view_; }
   /// Nothing is known out of the view, though the light may shine there.
   bool is_lit_outside() const { return is_lit_outside_; }
+  /// A jump of the distance that makes a difference to the points [scene units].
+  float edge_depth() const { return edge_depth_; }
   /// Along a ray of the view, the distance to the first opaque surface that is not the
   /// light itself; infinity if there is none, zero where the light does not shine. `u`
   /// chooses a point of an area light: half shadows are those at about the points'
@@ -32,7 +34,8 @@ class LightAim {
   const Light* light_;
   LightView view_ = LightView::around({});
   bool is_lit_outside_ = false;
-  Vec3 center_;       // of the light
+  Vec3 center_;  // of the light
+  float edge_depth_ = 0;
   float focus_ = 1;   // the points' distance from it
   float beyond_ = 0;  // where parallel rays start, before the view's plane
 };

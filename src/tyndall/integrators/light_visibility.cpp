@@ -22,10 +22,11 @@ int resolution_for(double texels) {
   return static_cast<int>(std::bit_floor(std::clamp(side, min_resolution, max_resolution)));
 }
 
-std::unique_ptr<const VisibilityMap> trace_map(const LightAim& aim,
+std::shared_ptr<const VisibilityMap> trace_map(const LightAim& aim,
                                                VisibilityMapSettings settings) {
   settings.lit_outside = aim.is_lit_outside();
-  auto map = std::make_unique<VisibilityMap>(aim.view(), settings);
+  settings.edge_depth = aim.edge_depth();
+  auto map = std::make_shared<VisibilityMap>(aim.view(), settings);
   const auto trace = [&](const Ray& ray, Vec2 u) { return aim.reach(ray, u); };
   tbb::parallel_for(0, map->sketch_rows(), [&](int row) { map->sketch_row(row, trace); });
   tbb::parallel_for(0, map->rows(),
@@ -45,21 +46,22 @@ LightVisibility::LightVisibility(const Scene& scene,
   };
   double power = 0;
   for (const Light& light : scene.lights()) power += power_of(light);
-  for (const Light& light : scene.lights()) {
-    maps_.emplace_back();
+  for (size_t i = 0; i < scene.lights().size(); ++i) {
+    const Light& light = scene.lights()[i];
     if (light.is_environment() || points.empty()) continue;
     const double share = power > 0 ? power_of(light) / power : 0;
     const VisibilityMapSettings map{
         .resolution = resolution_for(share * static_cast<double>(settings.texels)),
         .floor = settings.floor};
-    maps_.back() = trace_map(LightAim(scene, light, points), map);
+    maps_[i] = trace_map(LightAim(scene, light, points), map);
   }
 }
 
 void LightVisibility::multiply(size_t light, const Ray& ray, std::span<const float> t,
                                float footprint, std::span<float> weights) const {
-  const VisibilityMap* map = maps_[light].get();
-  if (!map) return;
+  const auto found = maps_.find(light);
+  if (found == maps_.end()) return;
+  const VisibilityMap* map = found->second.get();
   assert(t.size() <= max_taps && t.size() % weights.size() == 0);
   std::array<float, max_taps> visibility;
   map->visibility(ray, t, std::span<float>(visibility.data(), t.size()),
@@ -73,14 +75,9 @@ void LightVisibility::multiply(size_t light, const Ray& ray, std::span<const flo
   }
 }
 
-size_t LightVisibility::maps() const {
-  const auto count = std::ranges::count_if(maps_, [](const auto& map) { return !!map; });
-  return static_cast<size_t>(count);
-}
-
 size_t LightVisibility::memory() const {
   size_t bytes = 0;
-  for (const auto& map : maps_) bytes += map ? map->memory() : 0;
+  for (const auto& [light, map] : maps_) bytes += map->memory();
   return bytes;
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
 #include <memory>
 #include <span>
-#include <vector>
 
 #include "tyndall/guiding/visibility_map.h"
 #include "tyndall/scene/scene.h"
@@ -11,7 +11,7 @@
 namespace tyndall {
 
 struct LightVisibilitySettings {
-  float floor = 0.005f;  ///< least predicted visibility: the price of being wrong
+  float floor = 0.002f;  ///< least predicted visibility: the price of being wrong
   /// Of all lights together. Bounds memory, 22 bytes each, and time, four rays each at
   /// the edges of shadows.
   size_t texels = size_t{1} << 21;
@@ -29,17 +29,21 @@ class LightVisibility {
   /// Traces in parallel. Throws nothing but std::bad_alloc.
   LightVisibility(const Scene& scene, const LightVisibilitySettings& settings = {});
 
+  /// Takes over maps, by the index of their light: for tools and tests.
+  using Maps = std::map<size_t, std::shared_ptr<const VisibilityMap>>;
+  explicit LightVisibility(Maps maps) : maps_(std::move(maps)) {}
+
   /// Multiplies each weight by the mean visibility of its taps from the light: t.size() is
   /// a multiple of weights.size(), neighbours share a weight; at most 64 weights.
   /// `footprint` is the angle between neighbouring taps, seen from the light [rad], or
   /// their distance if the light is at infinity.
   void multiply(size_t light, const Ray& ray, std::span<const float> t, float footprint,
                 std::span<float> weights) const;
-  size_t maps() const;
+  const Maps& maps() const { return maps_; }
   size_t memory() const;  ///< [bytes]
 
  private:
-  std::vector<std::unique_ptr<const VisibilityMap>> maps_;  // null for environments
+  Maps maps_;  // none for environments
 };
 
 }  // namespace tyndall

@@ -110,7 +110,7 @@ void PathTracer::report(RenderStatistics& statistics) const {
   statistics.counters["connections.single"] = double{budget_->count(Effort::single, 0)};
   statistics.counters["connections.dual"] = double{budget_->count(Effort::dual, 0)};
   if (const LightVisibility* visibility = connections_->visibility()) {
-    statistics.counters["visibility.maps"] = static_cast<double>(visibility->maps());
+    statistics.counters["visibility.maps"] = static_cast<double>(visibility->maps().size());
     statistics.counters["visibility.bytes"] = static_cast<double>(visibility->memory());
   }
   if (connections_->lit_surfaces())
@@ -118,6 +118,18 @@ void PathTracer::report(RenderStatistics& statistics) const {
         double{budget_->count(Effort::lit_from_leg, 0)};
   if (const DirectionGuiding* guiding = connections_->guiding())
     guiding->report(statistics);
+}
+
+bool PathTracer::learns() const {
+  return connections_ && (connections_->visibility() || connections_->guiding());
+}
+
+void PathTracer::dump(GuidingFileWriter& out) const {
+  if (!connections_) return;
+  if (const LightVisibility* visibility = connections_->visibility())
+    for (const auto& [light, map] : visibility->maps()) out.add_map(light, *map);
+  if (const DirectionGuiding* guiding = connections_->guiding())
+    out.add_records(guiding->records());
 }
 
 PathSample PathTracer::Li(const Ray& ray, Sampler& sampler) const {

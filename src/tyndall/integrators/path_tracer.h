@@ -17,6 +17,8 @@ class PathTracer : public Integrator {
   PathSample Li(const Ray& ray, Sampler& sampler) const override;
   uint32_t prepare(uint32_t first) override;
   void report(RenderStatistics& statistics) const override;
+  bool learns() const override;
+  void dump(GuidingFileWriter& out) const override;
 
  private:
   const Scene& scene_;

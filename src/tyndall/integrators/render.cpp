@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <chrono>
 #include <mutex>
+#include <stdexcept>
 
 #include "tyndall/integrators/integrator.h"
 
@@ -63,8 +64,7 @@ class RenderJob {
     const tbb::global_control workers(tbb::global_control::max_allowed_parallelism,
                                       static_cast<size_t>(arena.max_concurrency()));
     arena.execute([&] {
-      integrator_ = make_integrator(scene_, settings_);
-      statistics_.training_seconds = clock_.seconds();
+      prepare_integrator();
       run_passes();
     });
     if (options_.on_progress) report_progress(done_, done_);
@@ -77,10 +77,27 @@ class RenderJob {
     statistics_.counters["camera.media"] =
         static_cast<double>(scene_.camera_media().size());
     integrator_->report(statistics_);
-    return {std::move(film_), std::move(statistics_)};
+    return {std::move(film_), std::move(statistics_), dump_guiding()};
   }
 
  private:
+  void prepare_integrator() {
+    integrator_ = make_integrator(scene_, settings_);
+    statistics_.training_seconds = clock_.seconds();
+    if (options_.dump_guiding && !integrator_->learns())
+      throw std::invalid_argument("integrator \"" + settings_.integrator +
+                                  "\" learns nothing that could be dumped");
+  }
+
+  std::vector<std::byte> dump_guiding() const {
+    if (!options_.dump_guiding) return {};
+    ByteWriter bytes;
+    GuidingFileWriter file(bytes);
+    file.add_times(statistics_.seconds, statistics_.training_seconds);
+    integrator_->dump(file);
+    return bytes.bytes();
+  }
+
   int64_t pixel_count() const {
     const Vec2i size = settings_.crop_max - settings_.crop_min;
     return static_cast<int64_t>(size.x) * size.y;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <functional>
 #include <map>
 #include <optional>
@@ -32,6 +33,9 @@ struct RenderOptions {
   const std::atomic<bool>* stop = nullptr;
   /// Called from one thread at a time, at most about ten times a second, and at the end.
   std::function<void(const RenderProgress&)> on_progress;
+  /// Hand back what the integrator has learned, in the format of GuidingFileWriter.
+  /// render() throws std::invalid_argument if it learns nothing.
+  bool dump_guiding = false;
   /// Called after each pass with the film so far and its samples per pixel, for
   /// checkpoints.
   std::function<void(const Film&, uint32_t samples)> on_pass;
@@ -54,6 +58,7 @@ struct RenderStatistics {
 struct RenderResult {
   Film film;
   RenderStatistics statistics;
+  std::vector<std::byte> guiding = {};  ///< if RenderOptions::dump_guiding asks for it
 };
 
 /// Renders in passes of growing size. The same scene, seed and number of samples give the

@@ -1,0 +1,80 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""What tyndall inspect prints and draws, and what it says about files that it cannot read."""
+
+import re
+import unittest
+
+from program import FOG, ProgramTest
+
+# A disk over the lamp keeps its light from half of the fog.
+SHADED = FOG.replace("WorldBegin", "WorldBegin\nAttributeBegin\nRotate 90 1 0 0\n"
+                     'Material "diffuse" "rgb reflectance" [.1 .1 .1]\n'
+                     'Shape "disk" "float radius" 1 "float height" -1\nAttributeEnd')
+
+
+class InspectTest(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.write("fog.pbrt", SHADED)
+        self.render("--integrator", "learned", "--spp", "1", "-q", "-o", "a.exr",
+                    "--dump-guiding", "a.guide")
+
+    def inspect(self, *arguments):
+        return self.run_program("inspect", *arguments)
+
+    def test_statistics(self):
+        result = self.inspect("a.guide")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        lines = result.stdout.splitlines()
+        self.assertRegex(lines[0], r"^time       \d+\.\d\d s, \d+\.\d % of it training$")
+        self.assertRegex(lines[1], r"^light 0    visibility map \d+x\d+, [\d.]+ MB, floor ")
+        self.assertEqual(self.files(), ["a.exr", "a.guide", "fog.pbrt"])
+
+    def test_pictures(self):
+        result = self.inspect("a.guide", "-o", "map.png")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        result = self.inspect("a.guide", "--scene", "fog.pbrt", "--pixel", "8,4", "-o", "d.png")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        learned, without = map(float, re.search(
+            r"^light 0: relative variance of one sample ([\d.e-]+) learned, ([\d.e-]+) without ",
+            result.stdout, re.MULTILINE).groups())
+        self.assertLess(learned, without)
+        for name in ("map.png", "d.png"):
+            self.assertEqual((self.folder / name).read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
+
+    def test_wrong_files(self):
+        data = (self.folder / "a.guide").read_bytes()
+        cases = [(data[:-1], "it ends too early"), (data[:6], "it ends too early"),
+                 (b"", "it is no file of --dump-guiding"),
+                 (data[:4] + b"\2" + data[5:],
+                  "its format has version 2, this program reads version 1")]
+        for content, message in cases:
+            (self.folder / "b.guide").write_bytes(content)
+            result = self.inspect("b.guide")
+            self.assertEqual((result.returncode, result.stderr),
+                             (2, f"error: b.guide: {message}\n"))
+
+    def test_wrong_arguments(self):
+        for arguments, message in (
+                (["--pixel", "1,1", "-o", "d.png"], "--pixel needs --scene"),
+                (["--scene", "fog.pbrt", "-o", "d.png"], "--scene needs --pixel"),
+                (["--light", "0"], "a picture needs -o FILE"),
+                (["--light", "7", "-o", "d.png"], "--light: there is no map of light 7"),
+                (["--scene", "fog.pbrt", "--pixel", "16,0", "-o", "d.png"],
+                 "--pixel: 16,0 lies outside the 16x8 picture")):
+            result = self.inspect("a.guide", *arguments)
+            self.assertEqual(result.returncode, 1, arguments)
+            self.assertTrue(result.stderr.startswith(f"error: {message}\n"), result.stderr)
+
+    def test_integrators_that_learn_nothing(self):
+        result = self.run_program("render", "fog.pbrt", "-q", "-o", "b.exr", "--integrator",
+                                  "volpath", "--dump-guiding", "b.guide")
+        self.assertEqual(result.returncode, 1)
+        self.assertEqual(result.stderr, 'error: integrator "volpath" learns nothing that could '
+                                        "be dumped\n")
+        self.assertNotIn("b.exr", self.files())
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+// Predicted visibility: what is sampled with it, and that a wrong one biases nothing.
+#include <gtest/gtest.h>
+
+#include "scenes.h"
+#include "support/chi_square.h"
+#include "tyndall/integrators/path_tracer.h"
+#include "tyndall/sampling/warps.h"
+
+namespace tyndall {
+namespace {
+
+// Fog around a point light and a disk that shades half of what the camera sees.
+SceneDescription shaded_fog(Light light = Light(PointLight{{0, 2, 0}, Rgb(10)})) {
+  SceneDescription d;
+  d.camera = test::camera({0, 0, -3}, {0, 0, 0});
+  d.camera_medium = 0;
+  d.media.push_back(test::grey_fog(0.25f, 0.05f, 0.4f));
+  d.surfaces.push_back(test::diffuse_disk(4, 50, 0.3f));
+  Surface shade = test::diffuse_disk(1, 0.8f, 0.1f);
+  auto& disk = std::get<Disk>(shade.shape);
+  disk.world_from_disk =
+      Transform::translate({0.5f, 0.2f, 0}) * Transform::rotate(-90, {1, 0, 0});
+  d.surfaces.push_back(shade);
+  d.lights.push_back(std::move(light));
+  return d;
+}
+
+ConnectionSettings with_maps(std::shared_ptr<const LightVisibility> maps) {
+  return {.single = true,
+          .dual = true,
+          .min_distance_ratio = 1,
+          .visibility = true,
+          .known_visibility = std::move(maps)};
+}
+
+// A map of light 0 whose distances are made from the right ones.
+std::shared_ptr<const LightVisibility> changed_map(const Scene& scene,
+                                                   float (*change)(float)) {
+  const VisibilityMap& right = *LightVisibility(scene).maps().at(0);
+  VisibilityMapSettings settings;
+  settings.resolution = right.rows();
+  settings.floor = right.floor();
+  auto map = std::make_shared<VisibilityMap>(right.view(), settings);
+  const auto side = static_cast<float>(right.rows());
+  int row = 0, ray = 0;
+  for (; row < right.rows(); ++row) {
+    ray = 0;
+    map->trace_rows(row, row + 1, [&](const Ray&, Vec2) {
+      const int x = ray / 4, quantile = ray++ % 4;
+      EXPECT_LT(static_cast<float>(x), side);
+      return change(right.distances(x, row)[static_cast<size_t>(quantile)]);
+    });
+  }
+  map->finish();
+  return std::make_shared<const LightVisibility>(LightVisibility::Maps{{0, map}});
+}
+
+RunningMoments radiance(const Scene& scene, const ConnectionSettings& connections,
+                        uint64_t seed, uint32_t count) {
+  RenderSettings settings = test::settings("learned", 3);
+  settings.seed = seed;
+  PathTracer tracer(scene, settings, connections);
+  RunningMoments moments;
+  uint32_t allowed = 0;
+  for (uint32_t i = 0; i < count; ++i) {
+    if (i >= allowed) allowed = tracer.prepare(i);
+    Sampler sampler(settings.sampler, settings.seed, {0, 0}, i);
+    const Vec2 u = sampler.next_2d();
+    const Ray ray{{0, 0, -3}, normalize(Vec3{u.x - 0.5f, 0.6f * u.y - 0.4f, 2})};
+    moments.add(double{tracer.Li(ray, sampler).L.r});
+  }
+  return moments;
+}
+
+TEST(PredictedVisibilityTest, AWrongMapIsNoBias) {
+  const Scene scene(shaded_fog());
+  const RunningMoments path = radiance(scene, {}, 1, 150'000);
+  const auto dark = changed_map(scene, [](float) { return 0.0f; });
+  const auto inverted =
+      changed_map(scene, [](float distance) { return distance < 2 ? infinity : 0.0f; });
+  uint64_t seed = 2;
+  double right_variance = 0;
+  for (const auto& maps : {std::shared_ptr<const LightVisibility>(), dark, inverted}) {
+    const RunningMoments guided = radiance(scene, with_maps(maps), seed++, 40'000);
+    EXPECT_LT(guided.standard_error(), 0.02 * guided.mean());
+    EXPECT_GT(welch_p_value(path, guided), 1e-3)
+        << seed << ": " << path.mean() << " +- " << path.standard_error() << " vs "
+        << guided.mean() << " +- " << guided.standard_error();
+    if (!maps) right_variance = guided.variance();
+    // The maps do guide: wrong ones cost variance.
+    if (maps == inverted) EXPECT_GT(guided.variance(), right_variance);
+  }
+}
+
+// What a leg samples with predicted visibility has the density that it states, and follows
+// the shadow.
+TEST(PredictedVisibilityTest, DistancesHaveTheirDensity) {
+  const Scene scene(shaded_fog());
+  const ConnectionContext context(scene, with_maps({}));
+  const Pivots pivots(scene, 1);
+  for (const Vec3 d : {Vec3{0.2f, 0, 1}, Vec3{0, 0.1f, 1}, Vec3{0.5f, -0.2f, 1}}) {
+    const Ray ray{{0, 0, -3}, normalize(d)};
+    Leg leg(scene, ray, scene.camera_medium());
+    ConnectionLeg connection(context, pivots, leg);
+    const ConnectionLeg::Single* single = connection.single(0);
+    ASSERT_TRUE(single);
+    // In the coordinate of the base technique the density is constant over each bin.
+    const EquiangularSampling& base = single->base();
+    const auto pdf_x = [&](double x) {
+      const std::optional<DistanceSample> at = base.sample(static_cast<float>(x));
+      return at ? double{single->pdf_t(at->t)} / double{at->pdf_t} : 0;
+    };
+    const ChiSquareResult r = chi_square_line(
+        [&](float u) -> std::optional<float> {
+          const std::optional<DistanceSample> s = single->sample(u);
+          return s ? std::optional<float>(base.invert(s->t)) : std::nullopt;
+        },
+        pdf_x, 0, 1);
+    EXPECT_GT(r.p_value, sidak(0.01, 3)) << r;
+    EXPECT_NEAR(r.mass, 1, 1e-4);
+    EXPECT_EQ(r.samples_of_zero_pdf, 0);
+    double mean = 0;
+    constexpr int bins = 64;
+    for (int i = 0; i < bins; ++i)
+      mean += pdf_x((i + 0.5) / bins) * (i + 0.5) / bins / bins;
+    EXPECT_GT(z_p_value(r.moments[0], mean), 1e-3);
+  }
+}
+
+double lit_share(const Scene& scene, const ConnectionSettings& settings) {
+  const ConnectionContext context(scene, settings);
+  RunningMoments lit;
+  RandomStream random(5);
+  for (uint64_t i = 0; i < 4000; ++i) {
+    const Pivots pivots(scene, i);
+    const Ray ray{{0, 0, -3}, normalize(Vec3{0.6f * random.next_1d(), -0.1f, 2})};
+    Leg leg(scene, ray, scene.camera_medium());
+    ConnectionLeg connection(context, pivots, leg);
+    const ConnectionLeg::Single* single = connection.single(0);
+    const auto s = single ? single->sample(random.next_1d()) : std::nullopt;
+    if (!s) continue;
+    const Vec3 p = ray.at(s->t), to_light = *connection.pivot(0) - p;
+    const float distance = length(to_light);
+    lit.add(scene.is_occluded({p, to_light / distance}, distance * 0.999f) ? 0 : 1);
+  }
+  return lit.mean();
+}
+
+// Near and far, point and area: nine of ten samples land where the light shines, which
+// without maps half of them miss.
+TEST(PredictedVisibilityTest, SamplesLandInTheLight) {
+  const Shape sphere = Sphere{.world_from_sphere = Transform::translate({0, 60, 0}),
+                              .radius = 1,
+                              .z_min = -1,
+                              .z_max = 1,
+                              .phi_max = 2 * pi,
+                              .flip_normals = false};
+  for (const Light& light :
+       {Light(PointLight{{0, 2, 0}, Rgb(10)}), Light(PointLight{{3, 60, 0}, Rgb(10)}),
+        Light(AreaLight{.shape = &sphere, .L = Rgb(1), .two_sided = false})}) {
+    const Scene scene(shaded_fog(light));
+    EXPECT_GT(lit_share(scene, with_maps({})), 0.9);
+    EXPECT_LT(lit_share(scene, {.single = true, .min_distance_ratio = 1}), 0.85);
+  }
+}
+
+}  // namespace
+}  // namespace tyndall
