@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "tyndall/guiding/gaussian_mixture.h"
@@ -141,7 +142,10 @@ BENCHMARK(BM_VisibilityBatch)
 
 void BM_OpticalDepthBatch(benchmark::State& state) {
   OpticalDepthMap map(LightView::around({0, 0, 0}), 3);
-  map.trace_rows(0, map.rows(), [](const Ray&, float t0, float t1) { return t1 - t0; });
+  map.trace_rows(0, map.rows(),
+                 [](const Ray&, std::span<const float> t, std::span<float> out) {
+                   std::ranges::copy(t, out.begin());
+                 });
   const std::vector<Ray> rays = random_rays();
   std::vector<float> t(64), out(64);
   for (size_t i = 0; i < t.size(); ++i) t[i] = 0.04f * static_cast<float>(i);

@@ -165,5 +165,32 @@ TEST(PredictedVisibilityTest, SamplesLandInTheLight) {
   }
 }
 
+// A ball of smoke around or beside a light: what is left of its light at points inside.
+TEST(PredictedVisibilityTest, LightIsDimmedByTheSmokeOnItsWay) {
+  for (const Vec3 light : {Vec3{0, 0, 0}, Vec3{0, 3, 0}}) {
+    SceneDescription d;
+    d.camera = test::camera({0, 0, -3}, {0, 0, 0});
+    d.media.push_back(test::constant_grid(1, 0.5f, 0, 1.3f));
+    d.surfaces.push_back(test::boundary_sphere(1));
+    d.lights.push_back(Light(PointLight{light, Rgb(1)}));
+    const Scene scene(std::move(d));
+    const LightVisibility visibility(scene);
+    RandomStream random(3);
+    for (int i = 0; i < 200; ++i) {
+      const Vec3 p =
+          sample_uniform_sphere(random.next_2d()) * (0.2f + 0.7f * random.next_1d());
+      float weight = 2;
+      const float t = 1;
+      const Ray ray{p - Vec3{0, 0, 1}, {0, 0, 1}};
+      visibility.multiply_transmittance(0, ray, {&t, 1}, {&weight, 1});
+      // From p towards the light, up to the ball's border or the light itself.
+      const float distance = length(light - p), b = dot(p, (light - p) / distance);
+      const float to_border = -b + std::sqrt(b * b + 1 - dot(p, p));
+      const float inside = std::min(distance, to_border);
+      EXPECT_NEAR(weight, 2 * std::exp(-1.5f * inside), 0.1f) << p.x << ' ' << p.y;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace tyndall

@@ -23,19 +23,17 @@ float OpticalDepthMap::distance_of(int step) const {
 
 void OpticalDepthMap::trace_rows(int begin, int end, const Depth& depth) {
   assert(0 <= begin && begin <= end && end <= resolution_);
-  auto value =
-      depth_.begin() + static_cast<std::ptrdiff_t>(begin) * resolution_ * (steps_ + 1);
+  std::vector<float> t;
+  for (int step = 0; step <= steps_; ++step) t.push_back(distance_of(step));
+  const auto size = t.size();
   for (int y = begin; y < end; ++y)
     for (int x = 0; x < resolution_; ++x) {
       const Vec2 center{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f};
-      const Ray ray = view_.ray(center * (1 / static_cast<float>(resolution_)));
-      float sum = 0;
-      *value++ = 0;
-      for (int step = 0; step < steps_; ++step) {
-        const float piece = depth(ray, distance_of(step), distance_of(step + 1));
-        sum += piece > 0 ? piece : 0;  // NaN adds nothing
-        *value++ = sum;
-      }
+      const std::span<float> depths(
+          &depth_[static_cast<size_t>(y * resolution_ + x) * size], size);
+      depth(view_.ray(center * (1 / static_cast<float>(resolution_))), t, depths);
+      float least = 0;  // never falls; NaN adds nothing
+      for (float& d : depths) d = least = d > least ? d : least;
     }
 }
 

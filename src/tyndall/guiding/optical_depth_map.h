@@ -17,9 +17,10 @@ namespace tyndall {
 /// is wrong, never bias.
 class OpticalDepthMap {
  public:
-  /// Optical depth of the ray between the distances t0 < t1, for a channel or a mean of
-  /// them.
-  using Depth = std::function<float(const Ray& ray, float t0, float t1)>;
+  /// Optical depth of the ray up to each of some ascending distances, for a channel or a
+  /// mean of them. `out` is as long as `t`.
+  using Depth =
+      std::function<void(const Ray& ray, std::span<const float> t, std::span<float> out)>;
 
   /// Empty space, until traced. `range` is the distance at which the medium ends [scene
   /// units].

@@ -69,18 +69,23 @@ std::optional<SelectedLight> ConnectionLeg::select_light(float u) {
 
 float ConnectionLeg::light_probability(size_t light) { return lights().probability(light); }
 
+// One homogeneous medium all along, which is taken to reach to the light.
+bool ConnectionLeg::is_homogeneous() const {
+  return proxy_.is_uniform() && proxy_.first_medium()->is_homogeneous();
+}
+
 template <int K>
 DistanceWeights<K> ConnectionLeg::weights(const DistanceTaps<K>& taps,
                                           bool with_phase) const {
   auto weights = DistanceWeights<K>::ones();
   const Medium* medium = proxy_.first_medium();
-  if (proxy_.is_uniform() && medium->is_homogeneous()) {
+  if (is_homogeneous()) {
     weights.multiply_transmittance(taps, proxy_.first_sigma_t());
   } else {
     LegProxy::Cursor cursor(proxy_);
     for (size_t i = 0; i < K; ++i) {
       cursor.move_to(taps.t[i]);
-      // What lies between the tap and the light is not known here.
+      // What lies between the tap and the light is for LightVisibility to know.
       weights.values[i] = cursor.sigma_t() * cursor.transmittance();
     }
   }
@@ -110,8 +115,11 @@ std::optional<EquiangularSampling> ConnectionLeg::useful_base(size_t light) cons
 
 ConnectionLeg::Single ConnectionLeg::bin_single(size_t light,
                                                 const EquiangularSampling& base) const {
-  const DistanceWeights<32> factors = weights(base.taps<32>(), true);
+  DistanceWeights<32> factors = weights(base.taps<32>(), true);
   if (!context_->visibility()) return Single(base, factors, floor_share);
+  if (!is_homogeneous())
+    context_->visibility()->multiply_transmittance(light, ray_, base.taps<32>().t,
+                                                   factors.values);
   // What varies fast is looked at more often than what varies slowly.
   constexpr int taps = 128;
   DistanceWeights<64> visible = factors.spread<64>();

@@ -129,6 +129,7 @@ class ConnectionLeg {
   Single bin_single(size_t light, const EquiangularSampling& base) const;
   const DoubleScatteringDistance* dual_base(size_t light);
   const LightProbabilities& lights();
+  bool is_homogeneous() const;
   template <int K>
   DistanceWeights<K> weights(const DistanceTaps<K>& taps, bool with_phase) const;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "tyndall/guiding/light_view.h"
@@ -25,8 +26,15 @@ class LightAim {
   /// chooses a point of an area light: half shadows are those at about the points'
   /// distance.
   float reach(const Ray& ray, Vec2 u) const;
+  /// Optical depth of the proxies along a ray of the view up to distances from the light,
+  /// which do not decrease: of the path that the light takes if nothing blocks it.
+  void optical_depth(const Ray& ray, std::span<const float> t, std::span<float> out) const;
+  /// Nearly all the points are nearer [scene units].
+  float range() const { return range_; }
 
  private:
+  std::optional<Ray> leave(const Ray& ray, Vec2 u) const;
+  const Medium* medium_at_start(const Ray& ray) const;
   void aim_finite(std::span<const Vec3> points);
   void aim_parallel(const Light& light, std::span<const Vec3> points);
 
@@ -35,7 +43,7 @@ class LightAim {
   LightView view_ = LightView::around({});
   bool is_lit_outside_ = false;
   Vec3 center_;  // of the light
-  float edge_depth_ = 0;
+  float edge_depth_ = 0, range_ = 1;
   float focus_ = 1;   // the points' distance from it
   float beyond_ = 0;  // where parallel rays start, before the view's plane
 };

@@ -16,6 +16,7 @@ namespace {
 
 constexpr unsigned max_resolution = 512, min_resolution = 16;
 constexpr size_t max_taps = 256;
+constexpr int depth_resolution = 32, depth_steps = 16;
 
 int resolution_for(double texels) {
   const auto side = static_cast<unsigned>(std::sqrt(texels));
@@ -35,6 +36,23 @@ std::shared_ptr<const VisibilityMap> trace_map(const LightAim& aim,
   return map;
 }
 
+OpticalDepthMap trace_depths(const LightAim& aim) {
+  OpticalDepthMap map(aim.view(), aim.range(), depth_resolution, depth_steps);
+  tbb::parallel_for(0, map.rows(), [&](int row) {
+    map.trace_rows(row, row + 1,
+                   [&](const Ray& ray, std::span<const float> t, std::span<float> out) {
+                     aim.optical_depth(ray, t, out);
+                   });
+  });
+  return map;
+}
+
+// Whether the transmittance between two points is more than a matter of their distance.
+bool has_varied_media(const Scene& scene) {
+  const auto& media = scene.description().media;
+  return media.size() > 1 || (!media.empty() && !media.front().is_homogeneous());
+}
+
 }  // namespace
 
 LightVisibility::LightVisibility(const Scene& scene,
@@ -44,6 +62,7 @@ LightVisibility::LightVisibility(const Scene& scene,
     return light.is_environment() ? 0.0
                                   : double{luminance(light.power(scene.bounds().radius()))};
   };
+  const bool is_varied = has_varied_media(scene);
   double power = 0;
   for (const Light& light : scene.lights()) power += power_of(light);
   for (size_t i = 0; i < scene.lights().size(); ++i) {
@@ -53,7 +72,9 @@ LightVisibility::LightVisibility(const Scene& scene,
     const VisibilityMapSettings map{
         .resolution = resolution_for(share * static_cast<double>(settings.texels)),
         .floor = settings.floor};
-    maps_[i] = trace_map(LightAim(scene, light, points), map);
+    const LightAim aim(scene, light, points);
+    maps_[i] = trace_map(aim, map);
+    if (is_varied) depths_.emplace(i, trace_depths(aim));
   }
 }
 
@@ -75,8 +96,20 @@ void LightVisibility::multiply(size_t light, const Ray& ray, std::span<const flo
   }
 }
 
+void LightVisibility::multiply_transmittance(size_t light, const Ray& ray,
+                                             std::span<const float> t,
+                                             std::span<float> weights) const {
+  const auto map = depths_.find(light);
+  if (map == depths_.end()) return;
+  assert(t.size() <= max_taps && t.size() == weights.size());
+  std::array<float, max_taps> transmittance;
+  map->second.transmittance(ray, t, std::span<float>(transmittance.data(), t.size()));
+  for (size_t i = 0; i < t.size(); ++i) weights[i] *= transmittance[i];
+}
+
 size_t LightVisibility::memory() const {
   size_t bytes = 0;
+  for (const auto& [light, map] : depths_) bytes += map.memory();
   for (const auto& [light, map] : maps_) bytes += map->memory();
   return bytes;
 }

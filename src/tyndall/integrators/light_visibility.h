@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 
+#include "tyndall/guiding/optical_depth_map.h"
 #include "tyndall/guiding/visibility_map.h"
 #include "tyndall/scene/scene.h"
 
@@ -30,6 +31,7 @@ class LightVisibility {
   LightVisibility(const Scene& scene, const LightVisibilitySettings& settings = {});
 
   /// Takes over maps, by the index of their light: for tools and tests.
+  using Depths = std::map<size_t, OpticalDepthMap>;
   using Maps = std::map<size_t, std::shared_ptr<const VisibilityMap>>;
   explicit LightVisibility(Maps maps) : maps_(std::move(maps)) {}
 
@@ -39,10 +41,15 @@ class LightVisibility {
   /// their distance if the light is at infinity.
   void multiply(size_t light, const Ray& ray, std::span<const float> t, float footprint,
                 std::span<float> weights) const;
+  /// Multiplies each weight by the transmittance of the proxies between its tap and the
+  /// light. Does nothing where one homogeneous medium fills the scene: that needs no map.
+  void multiply_transmittance(size_t light, const Ray& ray, std::span<const float> t,
+                              std::span<float> weights) const;
   const Maps& maps() const { return maps_; }
   size_t memory() const;  ///< [bytes]
 
  private:
+  Depths depths_;
   Maps maps_;  // none for environments
 };
 
