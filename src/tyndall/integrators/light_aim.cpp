@@ -103,10 +103,14 @@ float LightAim::reach(const Ray& ray, Vec2 u) const {
   return 0;
 }
 
-// Boundaries know what they divide; without any there is only one medium.
-const Medium* LightAim::medium_at_start(const Ray& ray) const {
-  const std::optional<SurfaceHit> hit = scene_->intersect_boundary(ray, infinity);
-  return hit ? scene_->medium_across(*hit, -ray.d, nullptr) : scene_->camera_medium();
+// By way of the boundaries between there and the camera.
+const Medium* LightAim::medium_at(Vec3 p) const {
+  const Vec3 eye = scene_->camera().position();
+  const float distance = length(p - eye);
+  if (!(distance > 0)) return scene_->camera_medium();
+  MediumSpans spans;
+  return scene_->media_along({eye, (p - eye) / distance}, distance, scene_->camera_medium(),
+                             spans);
 }
 
 void LightAim::optical_depth(const Ray& ray, std::span<const float> t,
@@ -117,7 +121,7 @@ void LightAim::optical_depth(const Ray& ray, std::span<const float> t,
   // Clear of the light's own surface.
   start->o = start->at(own_surface * focus_);
   const float before = light_->is_infinite() ? beyond_ : -length(start->o - center_);
-  Leg leg(*scene_, *start, medium_at_start(*start));
+  Leg leg(*scene_, *start, medium_at(start->o));
   const LegProxy proxy(leg);
   if (proxy.is_empty()) return;
   LegProxy::Cursor cursor(proxy);

@@ -47,6 +47,11 @@ OpticalDepthMap trace_depths(const LightAim& aim) {
   return map;
 }
 
+// Environments are everywhere, and media that glow hide behind nothing but themselves.
+bool has_map(const Light& light) {
+  return !light.is_environment() && !std::holds_alternative<VolumeLight>(light.variant());
+}
+
 // Whether the transmittance between two points is more than a matter of their distance.
 bool has_varied_media(const Scene& scene) {
   const auto& media = scene.description().media;
@@ -59,15 +64,14 @@ LightVisibility::LightVisibility(const Scene& scene,
                                  const LightVisibilitySettings& settings) {
   const std::vector<Vec3> points = pilot_points(scene);
   const auto power_of = [&](const Light& light) {
-    return light.is_environment() ? 0.0
-                                  : double{luminance(light.power(scene.bounds().radius()))};
+    return has_map(light) ? double{luminance(light.power(scene.bounds().radius()))} : 0.0;
   };
   const bool is_varied = has_varied_media(scene);
   double power = 0;
   for (const Light& light : scene.lights()) power += power_of(light);
   for (size_t i = 0; i < scene.lights().size(); ++i) {
     const Light& light = scene.lights()[i];
-    if (light.is_environment() || points.empty()) continue;
+    if (!has_map(light) || points.empty()) continue;
     const double share = power > 0 ? power_of(light) / power : 0;
     const VisibilityMapSettings map{
         .resolution = resolution_for(share * static_cast<double>(settings.texels)),
