@@ -82,6 +82,29 @@ TEST_P(OracleTest, OnceScatteredFluence) {
   }
 }
 
+// Light scattered twice where nothing is absorbed, in isotropic fog so thin that its
+// transmittance is one to 1e-4: literature note G2. Path tracing finds nothing here.
+TEST(ThinFog, LightScatteredTwice) {
+  constexpr float sigma_s = 1e-6f;
+  for (const std::string integrator : {"jis", "learned"}) {
+    SceneDescription d;
+    d.camera = test::camera({0, 0, 0}, {0, 0, 1});
+    d.camera_medium = 0;
+    d.media.push_back(test::grey_fog(sigma_s, 0));
+    d.surfaces.push_back(test::diffuse_disk(5, 0.005f, 0));
+    d.lights.push_back(Light(PointLight{{1, 0, 2}, Rgb(1)}));
+    const Scene scene(std::move(d));
+    const RunningMoments found =
+        estimate(scene, test::settings(integrator, 2, {2, 2}), 100'000, [](Sampler&) {
+          return Ray{{0, 0, 0}, {0, 0, 1}};
+        });
+    const double expected = double{sigma_s} * double{sigma_s} * 4 * 3.14159265358979 / 64 *
+                            (std::asinh(3.0) + std::asinh(2.0));
+    EXPECT_NEAR(found.mean(), expected, 3 * found.standard_error() + 5e-4 * expected);
+    EXPECT_LT(found.standard_error(), 2e-3 * expected);
+  }
+}
+
 // Surroundings of radiance one and albedo one: every pixel is one, whatever is in between.
 class FurnaceTest : public OracleTest {};
 INSTANTIATE_TEST_SUITE_P(Integrators, FurnaceTest, testing::ValuesIn(integrator_names()));

@@ -21,6 +21,19 @@ TEST(LoadErrorsTest, NamesThePlaceAndTheRange) {
             "      |                              ^~~~~~~~~~~~~");
 }
 
+// Densities of directions end where the phase function is a Dirac delta.
+TEST(LoadErrorsTest, RefusesPhaseFunctionsThatDoNotSpread) {
+  for (const std::string g : {"1", "-1"})
+    EXPECT_EQ(test::error_of("Camera \"perspective\"\n"
+                             "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\"\n"
+                             "  \"float g\" " +
+                             g + "\nWorldBegin\nLightSource \"infinite\"\n"),
+              "test.pbrt:3:3: error: MakeNamedMedium \"fog\": parameter \"g\" must lie in "
+              "(-1, 1), got " +
+                  g + "\n    3 |   \"float g\" " + g + "\n      |   ^~~~~~~~~~" +
+                  std::string(g.size(), '~'));
+}
+
 TEST(LoadErrorsTest, KeepsTheDiagnosticsApart) {
   try {
     test::parse_world("Shape \"sphere\" \"float radius\" -1\nShape \"cube\"\n");

@@ -9,60 +9,202 @@
 namespace tyndall {
 namespace {
 
-// Rays that one connection, and one leg of the walk with its next event estimation, cost.
-constexpr std::array<double, 5> effort_cost{2, 4, 4, 3, 4};
-constexpr double leg_cost = 2.5;
+// Rays that one connection, one leg of the walk with its next event estimation, and the
+// mere possibility of connections from a leg cost.
+constexpr std::array<double, 6> effort_cost{2, 4, 4, 3, 4, 2};
+constexpr double leg_cost = 2.5, possible_cost = 1;
 
-// The walk's variance is mostly that of bright pixels; dark ones need their connections
-// too, and most of what they see happens on the first leg.
-constexpr float min_count_first = 1, min_count_later = 0.25f, max_count = 4;
+// Connections are given up if they lower the variance of a path less than this, and lose
+// more than that share of efficiency.
+constexpr double least_gain = 1.5, least_efficiency = 0.9;
+constexpr double least_paths = 4000;  // to judge by
 
-// Recorded squares, relative to that of the mean radiance, are kept in these units and
+// A connection that seems worthless may still be all that finds something rare; most of
+// what a pixel sees happens on the first leg.
+constexpr double min_count_first = 0.25, min_count_later = 0.1, max_count = 4;
+// Until something is known. Pairs tell most, and most on the first leg.
+constexpr float first_count_first = 2, first_count_later = 1;
+
+// Regions, across and down. Squares are weighed by the radiance of a region, which must be
+// known much better than a few paths tell it: the fewer, the lower it would seem to vary.
+constexpr int max_size = 8;
+
+// What a region has not seen yet is believed to be as elsewhere: so many records of it.
+constexpr double prior_paths = 16, prior_records = 32;
+// Relative to the mean radiance of the picture, added to that of a region: as in relMSE.
+constexpr double epsilon = 0.01;
+
+constexpr double cost_unit = 1.0 / 16;
+
+// Records, relative to the mean radiance or its square, are kept in these units and
 // clamped: one firefly must not decide.
 constexpr double unit = 1e-8, largest = 1e4;
 
-int64_t quantize(double square) {
-  return std::isfinite(square) ? static_cast<int64_t>(std::min(square, largest) / unit) : 0;
+int64_t quantize(double value) {
+  return std::isfinite(value) ? static_cast<int64_t>(std::min(value, largest) / unit) : 0;
+}
+
+void add(std::atomic<int64_t>& sum, int64_t term) {
+  sum.fetch_add(term, std::memory_order_relaxed);
 }
 
 }  // namespace
 
-ConnectionBudget::ConnectionBudget(float mean_radiance)
-    : scale_(mean_radiance > 0 ? 1 / mean_radiance : 1) {}
+struct ConnectionBudget::Worth {
+  std::vector<double> weights, means;  // of squares, and radiance, by region
+  double price;                        // of cost, in weighted squares
+};
 
-const ConnectionBudget::Cell& ConnectionBudget::cell(Effort effort, int depth) const {
-  return cells_[static_cast<size_t>(effort) * depths +
-                static_cast<size_t>(std::clamp(depth, 0, depths - 1))];
+ConnectionBudget::ConnectionBudget(float mean_radiance, Vec2i resolution)
+    : scale_(mean_radiance > 0 ? 1 / mean_radiance : 1),
+      resolution_(resolution),
+      size_{std::clamp(resolution.x, 1, max_size), std::clamp(resolution.y, 1, max_size)},
+      regions_(static_cast<size_t>(size_.x) * static_cast<size_t>(size_.y)),
+      counts_(regions_.size()) {
+  for (auto& counts : counts_)
+    for (size_t i = 0; i < counts.size(); ++i)
+      counts[i] = i % depths == 0 ? first_count_first : first_count_later;
 }
 
-void ConnectionBudget::record_pair(Effort effort, int depth, float a, float b) const {
-  const Cell& c = cell(effort, depth);
-  const double difference = (double{a} - double{b}) * scale_;
-  c.variance.fetch_add(quantize(0.5 * difference * difference), std::memory_order_relaxed);
-  c.pairs.fetch_add(1, std::memory_order_relaxed);
+size_t ConnectionBudget::region(Vec2i pixel) const {
+  const auto part = [](int64_t i, int n, int size) {
+    return static_cast<size_t>(std::clamp<int64_t>(i * size / std::max(n, 1), 0, size - 1));
+  };
+  return part(pixel.y, resolution_.y, size_.y) * static_cast<size_t>(size_.x) +
+         part(pixel.x, resolution_.x, size_.x);
 }
 
-void ConnectionBudget::record_walk(float value, int legs) const {
-  walk_square_.fetch_add(quantize(sqr(double{value} * scale_)), std::memory_order_relaxed);
-  walks_.fetch_add(1, std::memory_order_relaxed);
-  legs_.fetch_add(legs, std::memory_order_relaxed);
+void ConnectionBudget::record(size_t region, Effort effort, int depth, float value) const {
+  Cell& c = regions_[region].cells[cell(effort, depth)];
+  add(c.squares, quantize(sqr(double{value} * scale_)));
+  add(c.visits, 1);
+}
+
+void ConnectionBudget::record_pair(size_t region, Effort effort, int depth,
+                                   float half_squared_difference) const {
+  Cell& c = regions_[region].cells[cell(effort, depth)];
+  add(c.variance, quantize(double{half_squared_difference} * sqr(scale_)));
+  add(c.pairs, 1);
+}
+
+float ConnectionBudget::cost(Effort effort, int count) {
+  return static_cast<float>(effort_cost[static_cast<size_t>(effort)] * count);
+}
+
+void ConnectionBudget::record_path(size_t region, const Finished& path) const {
+  Region& r = regions_[region];
+  const int64_t square = quantize(sqr(double{path.value} * scale_));
+  add(r.radiance, quantize(double{path.value} * scale_));
+  add(r.squares, square);
+  add(r.noise, quantize(double{path.noise} * sqr(scale_)));
+  add(r.paths, 1);
+  add(r.legs, path.legs);
+  add(r.recent.squares, square);
+  add(r.recent.paths, 1);
+  const double cost = (leg_cost + possible_cost) * path.legs + double{path.spent};
+  add(r.recent.cost, static_cast<int64_t>(cost / cost_unit));
+}
+
+void ConnectionBudget::record_plain_path(size_t region, const Finished& path) const {
+  Tally& plain = regions_[region].plain;
+  add(plain.squares, quantize(sqr(double{path.value} * scale_)));
+  add(plain.paths, 1);
+  add(plain.cost, static_cast<int64_t>(leg_cost * path.legs / cost_unit));
+}
+
+ConnectionBudget::Worth ConnectionBudget::worth() const {
+  double radiance = 0, paths = 0, legs = 0;
+  for (const Region& r : regions_) {
+    radiance += static_cast<double>(r.radiance) * unit;
+    paths += static_cast<double>(r.paths);
+    legs += static_cast<double>(r.legs);
+  }
+  const double mean = radiance / std::max(paths, 1.0);
+  Worth worth{.weights = {}, .means = {}, .price = 0};
+  double variance = 0;
+  for (const Region& r : regions_) {
+    const auto n = static_cast<double>(r.paths);
+    const double here =
+        (static_cast<double>(r.radiance) * unit + prior_paths * mean) / (n + prior_paths);
+    const double weight = 1 / std::max(sqr(here) + epsilon * sqr(mean), 1e-30);
+    const double left = static_cast<double>(r.squares - r.noise) * unit - n * sqr(here);
+    variance += weight * std::max(left, 0.0);
+    worth.weights.push_back(weight);
+    worth.means.push_back(here);
+  }
+  worth.price = variance / std::max(leg_cost * legs, 1.0);
+  return worth;
 }
 
 void ConnectionBudget::update() {
-  const auto walks = static_cast<double>(std::max<int64_t>(walks_, 1));
-  const double walk_variance = static_cast<double>(walk_square_) * unit / walks;
-  const double walk_cost = leg_cost * static_cast<double>(legs_) / walks;
-  for (size_t i = 0; i < cells_.size(); ++i) {
-    Cell& c = cells_[i];
-    if (c.pairs == 0) continue;
-    const double variance =
-        static_cast<double>(c.variance) * unit / static_cast<double>(c.pairs);
-    const double worth = variance / effort_cost[i / depths];
-    const double price = walk_variance / std::max(walk_cost, 1e-9);
-    const double count = price > 0 ? std::sqrt(worth / price) : 1;
-    const float least = i % depths == 0 ? min_count_first : min_count_later;
-    c.count = std::clamp(static_cast<float>(count), least, max_count);
+  const Worth now = worth();
+  for (size_t i = 0; i < efforts * depths; ++i) update_cell(i, now);
+  pays_ = pays_ && is_worth_it(now);
+  for (Region& r : regions_) r.recent.squares = r.recent.paths = r.recent.cost = 0;
+}
+
+ConnectionBudget::Efficiency ConnectionBudget::efficiency(Tally Region::*tally,
+                                                          const Worth& worth) const {
+  Efficiency sum{.variance = 0, .cost = 0, .paths = 0};
+  for (size_t r = 0; r < regions_.size(); ++r) {
+    const Tally& t = regions_[r].*tally;
+    const auto n = static_cast<double>(t.paths);
+    sum.variance += worth.weights[r] *
+                    (static_cast<double>(t.squares) * unit - n * sqr(worth.means[r]));
+    sum.cost += static_cast<double>(t.cost) * cost_unit;
+    sum.paths += n;
   }
+  const double n = std::max(sum.paths, 1.0);
+  return {.variance = sum.variance / n, .cost = sum.cost / n, .paths = sum.paths};
+}
+
+bool ConnectionBudget::is_worth_it(const Worth& worth) const {
+  const Efficiency with = efficiency(&Region::recent, worth);
+  const Efficiency without = efficiency(&Region::plain, worth);
+  if (with.paths < least_paths || without.paths < least_paths) return true;
+  return without.variance > least_gain * with.variance ||
+         without.variance * without.cost > least_efficiency * with.variance * with.cost;
+}
+
+void ConnectionBudget::update_cell(size_t cell, const Worth& worth) {
+  // Weighted sums and numbers of records.
+  struct Mean {
+    double sum = 0, records = 0;
+    double with_prior(double value, double count) const {
+      const double prior = records > 0 ? sum / records : 0;
+      return (value + prior_records * prior) / (count + prior_records);
+    }
+  } variance, squares;
+  for (size_t r = 0; r < regions_.size(); ++r) {
+    const Cell& c = regions_[r].cells[cell];
+    variance.sum += worth.weights[r] * static_cast<double>(c.variance) * unit;
+    variance.records += static_cast<double>(c.pairs);
+    squares.sum += worth.weights[r] * static_cast<double>(c.squares) * unit;
+    squares.records += static_cast<double>(c.visits);
+  }
+  if (squares.records == 0) return;
+  const double cost = effort_cost[cell / depths] * std::max(worth.price, 1e-30);
+  const double least = cell % depths == 0 ? min_count_first : min_count_later;
+  for (size_t r = 0; r < regions_.size(); ++r) {
+    const Cell& c = regions_[r].cells[cell];
+    const double of_all =
+        squares.with_prior(worth.weights[r] * static_cast<double>(c.squares) * unit,
+                           static_cast<double>(c.visits));
+    double count = std::sqrt(of_all / cost);
+    if (count > 1 && variance.records > 0) {
+      const double of_pairs =
+          variance.with_prior(worth.weights[r] * static_cast<double>(c.variance) * unit,
+                              static_cast<double>(c.pairs));
+      count = std::max(std::sqrt(of_pairs / cost), 1.0);
+    }
+    counts_[r][cell] = static_cast<float>(std::clamp(count, least, max_count));
+  }
+}
+
+double ConnectionBudget::mean_count(Effort effort, int depth) const {
+  double sum = 0;
+  for (const auto& counts : counts_) sum += double{counts[cell(effort, depth)]};
+  return sum / static_cast<double>(counts_.size());
 }
 
 }  // namespace tyndall

@@ -4,56 +4,112 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <vector>
+
+#include "tyndall/math/vec.h"
 
 namespace tyndall {
 
 /// What a path can spend rays on besides walking.
-enum class Effort { single, dual, lit_from_leg, lit_from_vertex, glow };
+enum class Effort { single, dual, lit_from_leg, lit_from_vertex, glow, forced };
 
-/// How often each connection is made, by kind and by how far along the path: as often as
-/// its variance is worth its rays, by measurement on the render's first samples.
+/// How often each connection is made, by kind, by how far along the path and by region of
+/// the picture: as often as its variance is worth its rays, by measurement on the render's
+/// first samples. What counts is the variance relative to the squared radiance of the
+/// region.
 ///
-/// With variance V and cost C of the walk, and M and c of one connection, the product of
-/// the variance and the cost of a path is least for M / c * C / V connections squared. M is
-/// the variance given the walk: half the squared difference of two connections made at one
-/// place.
+/// With V the variance that all connections made perfectly would leave, C the cost of the
+/// walk, M the variance of one connection given the walk (half the squared difference of
+/// two made at one place) and c its cost, the product of the variance and the cost of a
+/// path is least for sqrt(M / c * C / V) connections. Where that is less than one, a
+/// connection left to chance varies by all that it finds, and M is the mean of its square.
+///
+/// Where connections as a whole cost more than they gain, none are to be made: pays().
 ///
 /// Sums are integers, so that their order does not matter: the same counts with any number
 /// of threads. record() may be called from many threads; update() from one, while no other
 /// runs.
 class ConnectionBudget {
  public:
-  /// `mean_radiance` of the picture, roughly.
-  explicit ConnectionBudget(float mean_radiance);
+  /// `mean_radiance` of the picture, roughly; its size in pixels.
+  ConnectionBudget(float mean_radiance, Vec2i resolution);
+
+  /// The region of a pixel; any pixel has one.
+  size_t region(Vec2i pixel) const;
 
   /// In units of the mean radiance.
   float relative(float radiance) const { return radiance * static_cast<float>(scale_); }
 
   /// How many connections to make; fractions are probabilities.
-  float count(Effort effort, int depth) const { return cell(effort, depth).count; }
+  float count(size_t region, Effort effort, int depth) const {
+    return counts_[region][cell(effort, depth)];
+  }
 
-  /// Two independent connections at one place gave these values.
-  void record_pair(Effort effort, int depth, float a, float b) const;
-  /// A path with so many legs ended, having found `value` by its walk and next event
-  /// estimation.
-  void record_walk(float value, int legs) const;
+  /// A connection found `value`.
+  void record(size_t region, Effort effort, int depth, float value) const;
+  /// Two connections at one place found values of this half squared difference.
+  void record_pair(size_t region, Effort effort, int depth,
+                   float half_squared_difference) const;
+  /// What so many connections cost [rays].
+  static float cost(Effort effort, int count);
+  /// A path ended.
+  struct Finished {
+    float value;  ///< that it found
+    int legs;
+    float spent = 0;  ///< cost() of its connections
+    float noise = 0;  ///< variance of the connections, as far as pairs of them tell
+  };
+  void record_path(size_t region, const Finished& path) const;
+  /// A path without any connections ended.
+  void record_plain_path(size_t region, const Finished& path) const;
 
-  /// Recomputes the counts from all that was recorded.
+  /// Recomputes the counts from all that was recorded, and pays() from the paths since the
+  /// last update and all plain paths.
   void update();
+  /// Nothing more needs to be recorded.
+  void end_recording() { is_recording_ = false; }
+  bool is_recording() const { return is_recording_; }
+  /// False if connections are known to be of no use. They are given up only where they
+  /// hardly lower the variance of a path: the worst of a path tracer's variance, lights
+  /// within reach of its vertices, takes more than a few paths to be seen.
+  bool pays() const { return pays_; }
+
+  /// Mean over the picture.
+  double mean_count(Effort effort, int depth) const;
 
  private:
-  static constexpr int depths = 6;  // the last stands for all beyond
-  static constexpr size_t efforts = 5;
+  static constexpr size_t efforts = 6, depths = 6;  // the last stands for all beyond
+  static size_t cell(Effort effort, int depth) {
+    const auto d = static_cast<size_t>(depth);
+    return static_cast<size_t>(effort) * depths + (d < depths ? d : depths - 1);
+  }
 
   struct Cell {
-    float count = 2;  // two, until something is known
-    mutable std::atomic<int64_t> variance = 0, pairs = 0;
+    std::atomic<int64_t> squares = 0, visits = 0, variance = 0, pairs = 0;
   };
-  const Cell& cell(Effort effort, int depth) const;
+  struct Tally {
+    std::atomic<int64_t> squares = 0, paths = 0, cost = 0;
+  };
+  struct Region {
+    std::array<Cell, efforts * depths> cells;
+    std::atomic<int64_t> radiance = 0, squares = 0, noise = 0, paths = 0, legs = 0;
+    Tally recent, plain;
+  };
+  // Mean variance and cost of a path.
+  struct Efficiency {
+    double variance, cost, paths;
+  };
+  struct Worth;  // of a square that is recorded in a region, and of a unit of cost
+  Worth worth() const;
+  void update_cell(size_t cell, const Worth& worth);
+  Efficiency efficiency(Tally Region::*tally, const Worth& worth) const;
+  bool is_worth_it(const Worth& worth) const;
 
   double scale_;
-  std::array<Cell, efforts * depths> cells_;
-  mutable std::atomic<int64_t> walk_square_ = 0, walks_ = 0, legs_ = 0;
+  Vec2i resolution_, size_;
+  bool is_recording_ = true, pays_ = true;
+  mutable std::vector<Region> regions_;
+  std::vector<std::array<float, efforts * depths>> counts_;
 };
 
 }  // namespace tyndall

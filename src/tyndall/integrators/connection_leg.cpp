@@ -10,10 +10,31 @@ namespace {
 // Connections look no further than the proxy lets this share of the light through.
 constexpr float end_transmittance = 1e-5f;
 
+// Where legs let less through than this, walks collide often enough by themselves.
+constexpr float least_end_transmittance = 0.3f;
+
 // The share of the samples that does not trust the bins.
 constexpr float floor_share = 0.1f;
 // The same where they hold predicted visibility, whose own floor adds to it.
 constexpr float floor_share_of_visible = 0.05f;
+
+// Where a spot light shines, from 0 to 1: the cone's edge as a ramp, and each tap with its
+// neighbours, lest a bin that the edge cuts is taken for dark.
+template <int K>
+void multiply_cone(const SpotLight& light, const Ray& ray, const DistanceTaps<K>& taps,
+                   DistanceWeights<K>& weights) {
+  const float c0 = dot(ray.o - light.p, light.axis), c1 = dot(ray.d, light.axis);
+  const float scale = 1 / std::max(light.cos_falloff_start - light.cos_total, 1e-3f);
+  std::array<float, K + 2> lit;
+  for (size_t i = 0; i < K; ++i) {
+    const float cosine = (c0 + c1 * taps.t[i]) / taps.distance[i];
+    lit[i + 1] = std::clamp((cosine - light.cos_total) * scale, 0.0f, 1.0f);
+  }
+  lit[0] = lit[1];
+  lit[K + 1] = lit[K];
+  for (size_t i = 0; i < K; ++i)
+    weights.values[i] *= 0.25f * (lit[i] + lit[i + 2]) + 0.5f * lit[i + 1];
+}
 
 }  // namespace
 
@@ -52,9 +73,11 @@ std::optional<Vec3> Pivots::operator()(size_t light) const {
 }
 
 ConnectionLeg::ConnectionLeg(const ConnectionContext& context, const Pivots& pivots,
-                             Leg& leg)
+                             Leg& leg, bool is_first)
     : context_(&context), pivots_(&pivots), ray_(leg.ray()), proxy_(leg) {
   if (proxy_.is_empty()) return;
+  forces_collisions_ = is_first && context.settings().single &&
+                       proxy_.collision_share() < 1 - least_end_transmittance;
   t_max_ = proxy_.distance_to(end_transmittance);
 }
 
@@ -116,6 +139,9 @@ std::optional<EquiangularSampling> ConnectionLeg::useful_base(size_t light) cons
 ConnectionLeg::Single ConnectionLeg::bin_single(size_t light,
                                                 const EquiangularSampling& base) const {
   DistanceWeights<32> factors = weights(base.taps<32>(), true);
+  const Light& the_light = context_->scene().lights()[light];
+  if (const auto* spot = std::get_if<SpotLight>(&the_light.variant()))
+    multiply_cone(*spot, ray_, base.taps<32>(), factors);
   if (!context_->visibility()) return Single(base, factors, floor_share);
   if (!is_homogeneous())
     context_->visibility()->multiply_transmittance(light, ray_, base.taps<32>().t,

@@ -87,8 +87,12 @@ class ConnectionLeg {
   /// No connections.
   ConnectionLeg() = default;
   /// Traces the leg to its end.
-  ConnectionLeg(const ConnectionContext& context, const Pivots& pivots, Leg& leg);
+  ConnectionLeg(const ConnectionContext& context, const Pivots& pivots, Leg& leg,
+                bool is_first = false);
 
+  /// Whether lights that single() leaves out are connected to from a forced collision: on
+  /// first legs that a walk may well pass without one.
+  bool forces_collisions() const { return forces_collisions_; }
   const Ray& ray() const { return ray_; }
   const LegProxy& proxy() const { return proxy_; }
   bool is_empty() const { return !context_ || proxy_.is_empty(); }
@@ -137,6 +141,7 @@ class ConnectionLeg {
   const Pivots* pivots_ = nullptr;
   Ray ray_{};
   LegProxy proxy_;
+  bool forces_collisions_ = false;
   float t_max_ = 0;                           // beyond, the proxy lets no light through
   std::optional<LightProbabilities> lights_;  // once somebody asks
   std::optional<PerLight> cache_;             // of the light last asked for

@@ -46,6 +46,25 @@ float LegProxy::collision_pdf_t(float t) const {
   return cursor.sigma_t() * cursor.transmittance();
 }
 
+std::optional<DistanceSample> LegProxy::sample(float u) const {
+  const float share = collision_share();
+  if (!(share > 0)) return std::nullopt;
+  const float depth = -std::log1p(-u * share);
+  for (const Piece& piece : pieces_) {
+    if (piece.end_depth() < depth && &piece != &pieces_.back()) continue;
+    const float inside = std::max(depth - piece.depth, 0.0f) / piece.sigma_t;
+    const float t = std::min(piece.t_min + inside, piece.t_max);
+    const float pdf = density_or_zero(piece.sigma_t * std::exp(-depth) / share);
+    if (!(pdf > 0)) return std::nullopt;
+    return DistanceSample{.t = t, .pdf_t = pdf};
+  }
+  return std::nullopt;
+}
+
+float LegProxy::collision_share() const {
+  return pieces_.empty() ? 0 : -std::expm1(-pieces_.back().end_depth());
+}
+
 float LegProxy::transmittance(float t) const {
   Cursor cursor(*this);
   cursor.move_to(t);
@@ -61,7 +80,7 @@ const Medium* LegProxy::medium_at(float t) const {
 float LegProxy::distance_to(float level) const {
   const float depth = -std::log(level);
   for (const Piece& piece : pieces_)
-    if (piece.depth + piece.sigma_t * (piece.t_max - piece.t_min) >= depth)
+    if (piece.end_depth() >= depth)
       return piece.t_min + std::max(depth - piece.depth, 0.0f) / piece.sigma_t;
   return t_max_;
 }

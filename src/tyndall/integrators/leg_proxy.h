@@ -4,6 +4,7 @@
 #include <boost/container/small_vector.hpp>
 
 #include "tyndall/integrators/leg.h"
+#include "tyndall/techniques/samples.h"
 
 namespace tyndall {
 
@@ -45,6 +46,11 @@ class LegProxy {
 
   /// Density with which a walk collides at t [1/scene unit].
   float collision_pdf_t(float t) const;
+  /// A distance for u in [0, 1), with the density collision_pdf_t() / collision_share():
+  /// empty if nothing scatters.
+  std::optional<DistanceSample> sample(float u) const;
+  /// The share of the light that the leg does not let through.
+  float collision_share() const;
   float transmittance(float t) const;
   /// Null where nothing scatters.
   const Medium* medium_at(float t) const;
@@ -57,6 +63,7 @@ class LegProxy {
     float sigma_t;
     float depth;  // optical depth up to t_min
     const Medium* medium;
+    float end_depth() const { return depth + sigma_t * (t_max - t_min); }
   };
 
   boost::container::small_vector<Piece, 8> pieces_;

@@ -32,6 +32,7 @@ Path::Path(const Scene& scene, const PathRules& rules, const Ray& ray, Sampler& 
       medium_(scene.camera_medium()),
       pivots_(scene, tracking_.next_bits()) {
   start_.p = ray.o;
+  if (rules.budget) region_ = rules.budget->region(sampler.pixel());
   if (rules.is_chromatic) hero_ = std::min(static_cast<int>(3 * sampler.next_1d()), 2);
 }
 
@@ -146,20 +147,22 @@ void Path::add_surface_emission(const SurfaceHit& hit) {
   const Rgb Le = area->Le(hit.point, -ray_.d);
   if (is_black(Le)) return;
   const float light_pdf = start_.is_specular ? 0 : hit.light->pdf(start_.p, hit.point);
-  add_found_by_walk(beta_ * Le * hit_weight(hit.light_index, light_pdf, hit.t));
+  add(beta_ * Le * hit_weight(hit.light_index, light_pdf, hit.t));
 }
 
 void Path::add_environment() {
   if (!rules_.orders.contains(order_)) return;
   for (const size_t i : scene_.environments()) {
     const Light& light = scene_.lights()[i];
-    add_found_by_walk(beta_ * light.environment(ray_.d) *
-                      hit_weight(i, light.pdf(ray_.d), infinity));
+    add(beta_ * light.environment(ray_.d) * hit_weight(i, light.pdf(ray_.d), infinity));
   }
 }
 
 void Path::finish() const {
-  if (rules_.budget) rules_.budget->record_walk(walk_found_, depth_ + 1);
+  if (rules_.budget && rules_.budget->is_recording())
+    rules_.budget->record_path(
+        region_,
+        {.value = luminance(result_.L), .legs = legs(), .spent = spent_, .noise = noise_});
 }
 
 bool Path::scatter() {

@@ -60,9 +60,10 @@ class Path {
   /// ends.
   bool scatter();
 
-  /// Tells the budget what the walk alone found. To be called once, at the end.
+  /// Tells the budget what the path found. To be called once, at the end.
   void finish() const;
   const PathSample& result() const { return result_; }
+  int legs() const { return depth_ + 1; }
 
  private:
   std::optional<float> sample_collision(const Ray& ray, const Leg::Span& span);
@@ -74,10 +75,6 @@ class Path {
   bool set_vertex(const Vertex& vertex, float t);
   bool survives_roulette();
   void add(Rgb contribution) { result_.L += contribution / average(spectral_); }
-  void add_found_by_walk(Rgb contribution) {
-    walk_found_ += luminance(contribution) / average(spectral_);
-    add(contribution);
-  }
 
   // Light that arrives at a vertex from a light, and the densities of the sample.
   struct Connection {
@@ -100,6 +97,7 @@ class Path {
   Rgb connect_single(Leg& leg);
   void enter(Leg& leg);
   Rgb connect_dual(Leg& leg);
+  Rgb connect_forced(Leg& leg);
   Rgb connect_glow();  // from the vertex
   struct DualStart;
   struct ScatteredOnce;
@@ -147,8 +145,7 @@ class Path {
   bool saw_end_ = false;  // of this leg
   float eta_scale_ = 1;
   std::optional<Vertex> vertex_;
-  float walk_found_ = 0;  // luminance, without connections
-  float t_vertex_ = 0;    // along the leg to it
+  float t_vertex_ = 0;  // along the leg to it
 
   // The last legs, for the densities of techniques that the walk did not use.
   Pivots pivots_;
@@ -157,12 +154,16 @@ class Path {
   LegStart start_;         // of leg_
   LegStart start_before_;  // of leg_before_
   PathSample result_;
+  size_t region_ = 0;  // of the budget
+  float spent_ = 0;    // on connections
+  float noise_ = 0;    // variance of the connections, as far as pairs of them tell
 };
 
 // Makes the connection as often as the budget says, on average.
 template <typename Connect>
 void Path::spend(Effort effort, const Connect& connect) {
-  const float wanted = rules_.budget ? rules_.budget->count(effort, depth_) : 1;
+  const ConnectionBudget* budget = rules_.budget;
+  const float wanted = budget ? budget->count(region_, effort, depth_) : 1;
   const auto whole = static_cast<int>(wanted);
   const float rest = wanted - static_cast<float>(whole);
   const int count = whole + (rest > 0 && tracking_.next_1d() < rest ? 1 : 0);
@@ -175,8 +176,13 @@ void Path::spend(Effort effort, const Connect& connect) {
     if (i < 2) found[i] = luminance(value) / average(spectral_);
   }
   add(sum / wanted);
-  if (rules_.budget && count >= 2)
-    rules_.budget->record_pair(effort, depth_, found[0], found[1]);
+  if (!budget || !budget->is_recording()) return;
+  budget->record(region_, effort, depth_, found[0]);
+  spent_ += ConnectionBudget::cost(effort, count);
+  if (count < 2) return;
+  const float variance = 0.5f * sqr(found[0] - found[1]);
+  budget->record_pair(region_, effort, depth_, variance);
+  noise_ += variance / wanted;
 }
 
 }  // namespace tyndall

@@ -95,14 +95,13 @@ void Path::connect_vertex() {
   const Connection connection = connect_to(*vertex_, *selected);
   if (is_black(connection.light)) return;
   const float weight = direct_weight(connection.end);
-  add_found_by_walk(beta_ * connection.light *
-                    (weight / (selected->probability * connection.end.pdf)));
+  add(beta_ * connection.light * (weight / (selected->probability * connection.end.pdf)));
 }
 
 // Whether next event estimation at the current vertex would have the weight zero.
 bool Path::is_left_to_connections(size_t light) {
   if (!rules_.connections || !vertex_->is_in_medium()) return false;
-  return leg_.reaches_single(light, t_vertex_);
+  return leg_.forces_collisions() || leg_.reaches_single(light, t_vertex_);
 }
 
 // Of next event estimation at the current vertex.
@@ -141,15 +140,18 @@ float Path::hit_weight(size_t light, float light_pdf, float distance) {
 void Path::enter(Leg& leg) {
   leg_two_before_ = std::move(leg_before_);
   leg_before_ = std::move(leg_);
-  leg_ = ConnectionLeg(*rules_.connections, pivots_, leg);
+  leg_ = ConnectionLeg(*rules_.connections, pivots_, leg, depth_ == 0);
 }
 
 void Path::connect(Leg& leg) {
   if (!rules_.connections) return;
   enter(leg);
   if (leg_.is_empty()) return;
-  if (counts(1)) spend(Effort::single, [&] { return connect_single(leg); });
-  if (counts(2) && rules_.connections->settings().dual)
+  const bool has_finite = rules_.connections->light_choice().has_finite_lights();
+  if (has_finite && counts(1)) spend(Effort::single, [&] { return connect_single(leg); });
+  if (counts(1) && leg_.forces_collisions())
+    spend(Effort::forced, [&] { return connect_forced(leg); });
+  if (has_finite && counts(2) && rules_.connections->settings().dual)
     spend(Effort::dual, [&] { return connect_dual(leg); });
   if (rules_.connections->lit_surfaces() && counts(1, 1))
     spend(Effort::lit_from_leg, [&] { return connect_lit(leg); });

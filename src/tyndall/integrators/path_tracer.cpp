@@ -14,6 +14,10 @@ constexpr uint32_t pilot_paths = 1024;
 constexpr uint32_t pretraining_paths = 4096;
 // The budget of connections is final from this sample of each pixel on.
 constexpr uint32_t last_update = 64;
+// At this update, or at the last if directions are learned, paths without connections are
+// traced, to compare with.
+constexpr uint32_t trial_update = 4;
+constexpr int64_t min_trial_paths = 4096, max_trial_paths = 8192;
 
 bool can_be_hit(const Light& light) {
   return light.is_environment() || std::holds_alternative<AreaLight>(light.variant());
@@ -34,19 +38,19 @@ PathTracer::PathTracer(const Scene& scene, const RenderSettings& settings,
               std::ranges::any_of(scene.description().media, &Medium::is_emissive) ||
               std::ranges::any_of(scene.lights(), can_be_hit),
           .connections = nullptr,
-          .budget = nullptr} {
+          .budget = nullptr},
+      plain_rules_(rules_) {
   const ConnectionSettings useful = useful_connections(scene, connections);
   if (!useful.single) {
     if (connections.single)
       notes_.push_back(
           "no light is near enough to what scatters for connections to help: rendered as "
-          "by "
-          "\"volpath\"");
+          "by \"volpath\"");
     return;
   }
   connections_.emplace(scene, useful);
   rules_.connections = &*connections_;
-  budget_.emplace(pilot_radiance());
+  budget_.emplace(pilot_radiance(), resolution_);
   rules_.budget = &*budget_;
 }
 
@@ -58,14 +62,15 @@ void PathTracer::for_pilot_rays(uint32_t count, const Trace& trace) const {
     const Vec2 u = sampler.next_2d();
     const Vec2 p_film{u.x * static_cast<float>(resolution_.x),
                       u.y * static_cast<float>(resolution_.y)};
-    trace(scene_.camera().ray(p_film, {0.5f, 0.5f}), sampler);
+    trace(scene_.camera().ray(p_film, {0.5f, 0.5f}), sampler,
+          Vec2i{static_cast<int>(p_film.x), static_cast<int>(p_film.y)});
   }
 }
 
 // The mean luminance of a few paths.
 float PathTracer::pilot_radiance() const {
   double sum = 0;
-  for_pilot_rays(pilot_paths, [&](const Ray& ray, Sampler& sampler) {
+  for_pilot_rays(pilot_paths, [&](const Ray& ray, Sampler& sampler, Vec2i) {
     const float found = luminance(Li(ray, sampler).L);
     if (std::isfinite(found)) sum += double{found};
   });
@@ -78,7 +83,7 @@ void PathTracer::pretrain(DirectionGuiding& guiding) const {
   rules.budget = nullptr;
   rules.sees_through = true;
   guiding.start_pretraining();
-  for_pilot_rays(pretraining_paths, [&](const Ray& ray, Sampler& sampler) {
+  for_pilot_rays(pretraining_paths, [&](const Ray& ray, Sampler& sampler, Vec2i) {
     Path path(scene_, rules, ray, sampler);
     do {
       Leg leg(scene_, path.ray(), path.medium());
@@ -91,10 +96,15 @@ void PathTracer::pretrain(DirectionGuiding& guiding) const {
 
 uint32_t PathTracer::prepare(uint32_t first) {
   if (!budget_) return unlimited;
-  if (first > 0 && first <= last_update) {
+  if (first > 0 && budget_->is_recording()) {
+    if (!was_tried_ && first >= (connections_->guiding() ? last_update : trial_update)) {
+      was_tried_ = true;
+      record_plain_paths();
+    }
     budget_->update();
     connections_->update();
   }
+  if (first >= last_update) budget_->end_recording();
   uint32_t next = unlimited;
   if (first < last_update) next = first == 0 ? 1 : first * 4;
   if (DirectionGuiding* guiding = connections_->guiding()) {
@@ -104,18 +114,31 @@ uint32_t PathTracer::prepare(uint32_t first) {
   return next;
 }
 
+void PathTracer::record_plain_paths() const {
+  const int64_t count =
+      std::clamp(int64_t{resolution_.x} * resolution_.y, min_trial_paths, max_trial_paths);
+  for_pilot_rays(static_cast<uint32_t>(count), [&](const Ray& ray, Sampler& sampler,
+                                                   Vec2i pixel) {
+    const Path path = trace(plain_rules_, ray, sampler);
+    budget_->record_plain_path(budget_->region(pixel),
+                               {.value = luminance(path.result().L), .legs = path.legs()});
+  });
+}
+
 void PathTracer::report(RenderStatistics& statistics) const {
   for (const std::string& note : notes_) statistics.notes.push_back(note);
   if (!budget_) return;
-  statistics.counters["connections.single"] = double{budget_->count(Effort::single, 0)};
-  statistics.counters["connections.dual"] = double{budget_->count(Effort::dual, 0)};
+  statistics.counters["connections.single"] = budget_->mean_count(Effort::single, 0);
+  statistics.counters["connections.dual"] = budget_->mean_count(Effort::dual, 0);
+  if (!budget_->pays())
+    statistics.notes.push_back(
+        "connections gained less than they cost: there were none after the first samples");
   if (const LightVisibility* visibility = connections_->visibility()) {
     statistics.counters["visibility.maps"] = static_cast<double>(visibility->maps().size());
     statistics.counters["visibility.bytes"] = static_cast<double>(visibility->memory());
   }
   if (connections_->lit_surfaces())
-    statistics.counters["connections.lit"] =
-        double{budget_->count(Effort::lit_from_leg, 0)};
+    statistics.counters["connections.lit"] = budget_->mean_count(Effort::lit_from_leg, 0);
   if (const DirectionGuiding* guiding = connections_->guiding())
     guiding->report(statistics);
 }
@@ -133,7 +156,12 @@ void PathTracer::dump(GuidingFileWriter& out) const {
 }
 
 PathSample PathTracer::Li(const Ray& ray, Sampler& sampler) const {
-  Path path(scene_, rules_, ray, sampler);
+  const bool is_plain = budget_ && !budget_->pays();
+  return trace(is_plain ? plain_rules_ : rules_, ray, sampler).result();
+}
+
+Path PathTracer::trace(const PathRules& rules, const Ray& ray, Sampler& sampler) const {
+  Path path(scene_, rules, ray, sampler);
   do {
     Leg leg(scene_, path.ray(), path.medium());
     path.connect(leg);
@@ -142,7 +170,7 @@ PathSample PathTracer::Li(const Ray& ray, Sampler& sampler) const {
     path.estimate_direct();
   } while (path.scatter());
   path.finish();
-  return path.result();
+  return path;
 }
 
 }  // namespace tyndall

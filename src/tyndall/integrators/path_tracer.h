@@ -24,15 +24,18 @@ class PathTracer : public Integrator {
   const Scene& scene_;
   template <typename Trace>
   void for_pilot_rays(uint32_t count, const Trace& trace) const;
+  Path trace(const PathRules& rules, const Ray& ray, Sampler& sampler) const;
   float pilot_radiance() const;
   void pretrain(DirectionGuiding& guiding) const;
+  void record_plain_paths() const;
 
   uint64_t seed_;
   Vec2i resolution_;
   std::optional<ConnectionContext> connections_;
   std::optional<ConnectionBudget> budget_;
-  PathRules rules_;
+  PathRules rules_, plain_rules_;
   std::vector<std::string> notes_;
+  bool was_tried_ = false;  // whether connections pay
 };
 
 }  // namespace tyndall

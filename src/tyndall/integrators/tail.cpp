@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tyndall/integrators/tail.h"
 
+#include <utility>
+
 #include "tyndall/integrators/dual_direction.h"
 
 namespace tyndall {
@@ -52,7 +54,11 @@ TailDensities tail_densities(const ConnectionContext& context, ConnectionLeg& be
   const float collision = leg.proxy().collision_pdf_t(t);
   TailDensities densities{.direct = collision * end.probability * end.pdf,
                           .hit = collision * end.pdf_direction};
-  if (!leg.reaches_single(end.light, t)) return densities;
+  if (!leg.reaches_single(end.light, t)) {
+    if (leg.forces_collisions())
+      densities.forced = std::exchange(densities.direct, 0) / leg.proxy().collision_share();
+    return densities;
+  }
   const float last = leg.single(end.light)->pdf_t(t) * end.pdf;
   densities.direct = 0;
   const float dual = dual_density(context, before, x, leg, end.light);

@@ -26,10 +26,11 @@ struct LightEnd {
 ///
 /// Where a dual connection can make a path, single connections and next event estimation
 /// leave it to that, and where a single connection can, next event estimation does: their
-/// densities are zero then. Each of them covers all that the next one does, with less
-/// variance; doing both costs rays that buy nothing.
+/// densities are zero then, and where a collision is forced. Each of them covers all that
+/// the next one does, with less variance; doing both costs rays that buy nothing.
 struct TailDensities {
   float direct = 0;  ///< a walk, then next event estimation
+  float forced = 0;  ///< the same after a forced collision on the first leg
   float hit = 0;     ///< a walk that hits the light
   float single = 0;  ///< a walk up to the vertex before the last, then a single connection
   float glow = 0;    ///< a walk to the surface before the last vertex, then to its glow
@@ -38,7 +39,7 @@ struct TailDensities {
   std::array<float, max_lit_surfaces> lit{};
 
   float weight(float technique) const {
-    float sum = direct + hit + single + glow + dual;
+    float sum = direct + forced + hit + single + glow + dual;
     for (const float density : lit) sum += density;
     return technique > 0 && sum < infinity ? technique / sum : 0;
   }

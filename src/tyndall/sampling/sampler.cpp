@@ -49,6 +49,7 @@ constexpr uint32_t sobol_reversed(uint32_t index) {
 
 Sampler::Sampler(SamplerKind kind, uint64_t seed, Vec2i pixel, uint32_t index)
     : kind_(kind),
+      pixel_(pixel),
       index_(index),
       reversed_index_(reverse_bits(index)),
       key_(hash(seed, pixel.x, pixel.y)) {

@@ -20,6 +20,8 @@ class Sampler {
  public:
   Sampler(SamplerKind kind, uint64_t seed, Vec2i pixel, uint32_t index);
 
+  Vec2i pixel() const { return pixel_; }
+
   /// Uniform in [0, 1); takes one dimension.
   float next_1d();
   /// Uniform in [0, 1)^2; takes one dimension pair, well distributed over the pixel's
@@ -33,6 +35,7 @@ class Sampler {
 
  private:
   SamplerKind kind_;
+  Vec2i pixel_;
   uint32_t index_, reversed_index_;
   uint32_t dimension_ = 0;
   uint64_t key_;  // hash of seed and pixel, and of the index if independent

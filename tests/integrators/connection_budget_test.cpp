@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tyndall/integrators/connection_budget.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace tyndall {
+namespace {
+
+constexpr Vec2i size{64, 64};
+constexpr int paths = 1000;
+
+// In each region, `paths` paths of one leg find 1 -+ walk, and two single connections on
+// the first leg find 0.5 -+ noise, where noise and brightness may differ between left and
+// right.
+struct Half {
+  float brightness = 1, walk = 1, noise = 1;
+};
+
+void record(ConnectionBudget& budget, const Half& left, const Half& right) {
+  for (int y = 0; y < size.y; y += 8)
+    for (int x = 0; x < size.x; x += 8) {
+      const Half& half = x < size.x / 2 ? left : right;
+      const size_t region = budget.region({x, y});
+      for (int i = 0; i < paths; ++i) {
+        const float sign = i % 2 == 0 ? 1.0f : -1.0f;
+        const float noise = half.brightness * half.noise;
+        budget.record(region, Effort::single, 0, half.brightness * 0.5f + sign * noise);
+        budget.record_pair(region, Effort::single, 0, noise * noise);
+        budget.record_path(region,
+                           {.value = half.brightness * (1 + sign * half.walk), .legs = 1});
+      }
+    }
+  budget.update();
+}
+
+TEST(ConnectionBudget, KnowsNothingAtFirst) {
+  ConnectionBudget budget(1, size);
+  EXPECT_EQ(budget.count(budget.region({3, 3}), Effort::single, 0), 2);
+  budget.update();
+  EXPECT_EQ(budget.count(budget.region({3, 3}), Effort::dual, 20), 1);
+}
+
+TEST(ConnectionBudget, EveryPixelHasARegion) {
+  const ConnectionBudget budget(1, {40, 7});
+  EXPECT_EQ(budget.region({0, 0}), 0);
+  EXPECT_EQ(budget.region({-1, -1}), 0);
+  EXPECT_EQ(budget.region({39, 6}), 8 * 7 - 1);
+  EXPECT_EQ(budget.region({1 << 30, 1 << 30}), 8 * 7 - 1);
+}
+
+TEST(ConnectionBudget, ConnectsAsOftenAsItPays) {
+  // sqrt(M / c * C / V), with the costs of a single connection and of a leg, 2 and 2.5.
+  const float walk = 0.5f, noise = 1;
+  ConnectionBudget budget(1, size);
+  record(budget, {1, walk, noise}, {1, walk, noise});
+  const float expected = std::sqrt(noise * noise / 2 * 2.5f / (walk * walk));
+  EXPECT_NEAR(budget.count(budget.region({9, 9}), Effort::single, 0), expected, 1e-3);
+  EXPECT_NEAR(budget.mean_count(Effort::single, 0), double{expected}, 1e-3);
+}
+
+TEST(ConnectionBudget, CountsAllThatAConnectionFindsWhereItIsLeftToChance) {
+  // Without noise, but with a mean: the mean square is 1/4.
+  ConnectionBudget budget(1, size);
+  record(budget, {1, 1, 0}, {1, 1, 0});
+  EXPECT_NEAR(budget.count(budget.region({9, 9}), Effort::single, 0),
+              std::sqrt(0.25f / 2 * 2.5f), 1e-3);
+}
+
+TEST(ConnectionBudget, DarkRegionsCountAsMuchAsBrightOnes) {
+  ConnectionBudget budget(1, size);
+  record(budget, {1, 0.5f, 1}, {4, 0.5f, 1});
+  const float dark = budget.count(budget.region({9, 9}), Effort::single, 0);
+  const float bright = budget.count(budget.region({50, 9}), Effort::single, 0);
+  // By squared error the bright half would get four times as many. The epsilon of relMSE
+  // and the prior leave 6 %.
+  EXPECT_NEAR(dark, bright, 0.08f * bright);
+}
+
+TEST(ConnectionBudget, SpendsWhereTheNoiseIs) {
+  ConnectionBudget budget(1, size);
+  record(budget, {1, 1, 0.2f}, {1, 1, 2});
+  const float quiet = budget.count(budget.region({9, 9}), Effort::single, 0);
+  const float noisy = budget.count(budget.region({50, 9}), Effort::single, 0);
+  EXPECT_LE(quiet, 1);
+  EXPECT_GT(noisy, 2);
+}
+
+TEST(ConnectionBudget, HoldsOutAgainstFireflies) {
+  ConnectionBudget budget(1, size);
+  record(budget, {1, 0.5f, 0.1f}, {1, 0.5f, 0.1f});
+  const float before = budget.count(budget.region({9, 9}), Effort::single, 0);
+  budget.record_path(0, {.value = INFINITY, .legs = 1, .noise = NAN});
+  budget.record(0, Effort::single, 0, NAN);
+  budget.record_pair(0, Effort::single, 0, INFINITY);
+  budget.update();
+  EXPECT_NEAR(budget.count(budget.region({9, 9}), Effort::single, 0), before, 0.01f);
+}
+
+// Everywhere, paths that find 1 -+ deviation: with connections of this cost, and without.
+bool pays(float with, float spent, float without) {
+  ConnectionBudget budget(1, size);
+  for (int x = 0; x < size.x; ++x)
+    for (int i = 0; i < paths; ++i) {
+      const size_t region = budget.region({x, 0});
+      const float sign = i % 2 == 0 ? 1.0f : -1.0f;
+      budget.record_path(region, {.value = 1 + sign * with, .legs = 2, .spent = spent});
+      budget.record_plain_path(region, {.value = 1 + sign * without, .legs = 2});
+    }
+  budget.update();
+  return budget.pays();
+}
+
+TEST(ConnectionBudget, GivesUpWhatGainsNothing) {
+  EXPECT_FALSE(pays(1, 4, 1));
+  EXPECT_TRUE(pays(1, 4, 1.3f));   // 1.7 times the variance, at a cost of 11 to 5
+  EXPECT_TRUE(pays(1, 0, 1.15f));  // 1.3 times, 7 to 5
+  EXPECT_FALSE(pays(1, 1, 1.1f));  // 1.2 times, 8 to 5
+}
+
+TEST(ConnectionBudget, DoesNotJudgeByFewPaths) {
+  ConnectionBudget budget(1, size);
+  for (int i = 0; i < 3999; ++i) {
+    budget.record_path(0, {.value = i % 2 == 0 ? 2.0f : 0.0f, .legs = 1, .spent = 100});
+    budget.record_plain_path(0, {.value = 1, .legs = 1});
+  }
+  budget.update();
+  EXPECT_TRUE(budget.pays());
+}
+
+}  // namespace
+}  // namespace tyndall
