@@ -72,8 +72,8 @@ Rgb Path::arriving(const SelectedLight& selected, const LightSample& sample,
   }
   const float t_max = sample.distance * (1 - shadow_shortening);
   if (!rules_.sees_through && scene_.is_occluded(shadow, t_max)) return Rgb();
-  return sample.L *
-         transmittance(scene_, shadow, std::min(t_max, far_distance), medium, tracking_);
+  return sample.L * transmittance(scene_, shadow, std::min(sample.distance, far_distance),
+                                  medium, tracking_);
 }
 
 void Path::estimate_direct() {

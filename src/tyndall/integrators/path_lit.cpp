@@ -24,8 +24,7 @@ Rgb Path::transmittance_to_light(const LitPoint& lit, const Medium* medium) {
   Rgb product(1);
   for (int i = lit.surfaces - 1; i >= 0; --i) {
     const LitPoint::Edge& edge = lit.edge[i];
-    const float t_max = edge.length * (1 - shadow_shortening);
-    product *= transmittance(scene_, edge.ray, t_max, medium, tracking_);
+    product *= transmittance(scene_, edge.ray, edge.length, medium, tracking_);
     if (i > 0 && scene_.has_boundaries())
       medium = Leg(scene_, edge.ray, medium).end_medium();
   }
