@@ -138,7 +138,7 @@ void Path::add_glow(Leg& leg) {
   if (const std::optional<size_t> light = scene_.volume_light();
       light && !start_.is_specular)
     weight = hit_weight(*light, scene_.lights()[*light].pdf(start_.p, ray_.d), infinity);
-  add_found_by_walk(beta_ * Le * weight);
+  add(beta_ * Le * weight);
 }
 
 void Path::add_surface_emission(const SurfaceHit& hit) {
