@@ -50,7 +50,7 @@ TEST_P(PhaseTest, AgreesWithTheWalkForAnyPhaseFunction) {
       two_peaks()};
   for (size_t i = 0; i < phases.size(); ++i) {
     const RunningMoments walk = look("volpath", phases[i], 2 * i + 1, 60'000);
-    const RunningMoments connected = look(GetParam(), phases[i], 2 * i + 2, 50'000);
+    const RunningMoments connected = look(GetParam(), phases[i], 2 * i + 2, 100'000);
     EXPECT_LT(connected.standard_error(), 0.04 * connected.mean()) << i;
     EXPECT_GT(welch_p_value(walk, connected), sidak(0.01, 9))
         << i << ": " << walk.mean() << " +- " << walk.standard_error() << " and "
