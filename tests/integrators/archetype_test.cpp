@@ -29,8 +29,8 @@ struct Case {
   bool has_two_orders;
 };
 
-// `zhou2016` is a part of `learned`. Of the integrators that connect, the two orders that they are made for, and the full
-// picture where there is nothing else.
+// `zhou2016` is a part of `learned`. Of the integrators that connect, the two orders that
+// they are made for, and the full picture where there is nothing else.
 bool is_wanted(const Case& c, const std::string& integrator) {
   if (integrator == "zhou2016") return false;
   return integrator == "volpath" || c.reference == "reference-d2" || !c.has_two_orders;

@@ -60,7 +60,9 @@ std::shared_ptr<const RecordCache> lies(const Scene& scene) {
       RandomStream random(hash(key, pass));
       TrainingSample s;
       s.key = key;
-      s.p = (Vec3{random.next_1d(), random.next_1d(), random.next_1d()} * 2 - Vec3{1, 1, 1}) * 3;
+      s.p =
+          (Vec3{random.next_1d(), random.next_1d(), random.next_1d()} * 2 - Vec3{1, 1, 1}) *
+          3;
       s.light_distance = distance(light, s.p);
       s.light_direction = (light - s.p) / s.light_distance;
       const Vec3 wrong = normalize(Vec3{1, 0.2f, -0.3f});
@@ -152,7 +154,7 @@ TEST(DirectionGuidingTest, LightsOutOfTheSceneAndHugeScenesAreNoTrouble) {
 TEST(DirectionGuidingTest, NoMediumMeansNothingToLearn) {
   SceneDescription d = lamp_over_disk();
   d.camera_medium = no_medium;
-  EXPECT_EQ(statistics_of(std::move(d)).counters.at("guiding.samples"), 0);
+  EXPECT_FALSE(statistics_of(std::move(d)).counters.contains("guiding.samples"));
 }
 
 }  // namespace

@@ -25,15 +25,16 @@ ConnectionSettings useful(SceneDescription description) {
 
 TEST(UsefulConnectionsTest, NearLightsKeepTheirConnections) {
   const ConnectionSettings s = useful(ball_and_light(2));
-  EXPECT_TRUE(s.single && s.dual && s.direction);
-  // Nothing hides the light.
-  EXPECT_FALSE(s.visibility || s.lit_surfaces);
+  EXPECT_TRUE(s.single && s.dual);
+  // Nothing hides the light, nothing reflects it.
+  EXPECT_FALSE(s.visibility || s.direction || s.lit_surfaces);
   EXPECT_EQ(s.min_distance_ratio, ConnectionSettings().min_distance_ratio);
 }
 
 TEST(UsefulConnectionsTest, OccludersAreAReasonToLearnThemForFarLightsToo) {
   for (const float distance : {2.0f, 100.0f}) {
     SceneDescription d = ball_and_light(distance);
+    d.lights = {Light(PointLight{{0, 0, distance}, Rgb(distance * distance)})};
     d.surfaces.push_back(test::diffuse_disk(0.5f, 0.5f, 0.5f));
     const ConnectionSettings s = useful(std::move(d));
     EXPECT_TRUE(s.single && s.dual && s.direction && s.visibility && s.lit_surfaces);

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "tyndall/loader/excerpt.h"
 #include "tyndall/integrators/nearest_name.h"
+#include "tyndall/loader/excerpt.h"
 #include "tyndall/loader/numbers.h"
 #include "tyndall/loader/reporter.h"
 #include "tyndall/loader/tokenizer.h"

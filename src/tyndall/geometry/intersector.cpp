@@ -64,8 +64,7 @@ struct RayContext {
   }
   // Notes that the ray, or what is left of it, goes through a boundary.
   void cross(const TargetShape& target, const RayHit& hit, const PreciseRay& ray) const {
-    crossings->push_back(
-        reconstruct(target, hit, ray, instances->of(embree.instID[0])));
+    crossings->push_back(reconstruct(target, hit, ray, instances->of(embree.instID[0])));
   }
   static const RayContext& of(const RTCIntersectContext* embree) {
     return *reinterpret_cast<const RayContext*>(embree);
@@ -344,9 +343,9 @@ class Intersector::Impl {
       const bool is_boundary = group[i].is_boundary;
       if (primitives == 0) continue;
       const Handle<RTCGeometry> handle =
-          target.mesh() ? new_triangles(device_.get(), *target.mesh(), is_boundary,
-                                        is_instanced)
-                        : new_user_geometry(device_.get(), primitives, is_boundary);
+          target.mesh()
+              ? new_triangles(device_.get(), *target.mesh(), is_boundary, is_instanced)
+              : new_user_geometry(device_.get(), primitives, is_boundary);
       rtcSetGeometryUserData(handle.get(), &target);
       rtcSetGeometryMask(handle.get(), mask_of(group[i]));
       rtcCommitGeometry(handle.get());

@@ -22,7 +22,7 @@ struct TrainingSample {
   /// divided by the density of wi; for the light alone, not divided by the probability of
   /// choosing it.
   float weight = 0;
-  float pdf = 0;                      ///< density that wi was drawn with [1/sr]
+  float pdf = 0;        ///< density that wi was drawn with [1/sr]
   float phase_pdf = 0;  ///< density of wi by phase sampling at p [1/sr]
   /// Densities of wi by the record's mixture and by joint sampling, as the render uses them
   /// [1/sr]; zero: those of the guide without regard to the phase function at p.

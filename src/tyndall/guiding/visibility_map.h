@@ -18,7 +18,7 @@ struct VisibilityMapSettings {
   int rays_per_texel = 4;  ///< a multiple of four
   float floor = 0.05f;     ///< least predicted visibility: the price of being wrong
   uint64_t seed = 0;
-  float edge_depth = 0.1f;  ///< jumps of the distance that matter [scene units]
+  float edge_depth = 0.1f;   ///< jumps of the distance that matter [scene units]
   bool lit_outside = false;  ///< what to expect out of the view: light, or none
 };
 

@@ -17,9 +17,8 @@ constexpr size_t max_bytes = size_t{16} << 20;
 std::vector<float> powers(const Scene& scene, int max_surfaces) {
   std::vector<float> powers;
   for (const Light& light : scene.lights()) {
-    float power = EmissionSquare::of(light)
-                      ? luminance(light.power(scene.bounds().radius()))
-                      : 0;
+    float power =
+        EmissionSquare::of(light) ? luminance(light.power(scene.bounds().radius())) : 0;
     for (int i = 0; i < max_surfaces; ++i, power *= 0.5f) powers.push_back(power);
   }
   return powers;

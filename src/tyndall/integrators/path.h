@@ -23,7 +23,8 @@ struct PathRules {
   bool walks_find_light;  ///< something that glows is not a Dirac delta
   const ConnectionContext* connections;  ///< null: next event estimation only
   const ConnectionBudget* budget;        ///< null: each connection once
-  bool sees_through = false;  ///< nothing hides a light from a connection: for training only
+  bool sees_through =
+      false;  ///< nothing hides a light from a connection: for training only
 };
 
 /// Rays between two points stop short of the second by this share of their length, lest

@@ -14,9 +14,9 @@ constexpr uint32_t pilot_paths = 1024;
 constexpr uint32_t pretraining_paths = 4096;
 // The budget of connections is final from this sample of each pixel on.
 constexpr uint32_t last_update = 64;
-// At this update, or at the last if directions are learned, paths without connections are
+// At this update, or at the second if directions are learned, paths without connections are
 // traced, to compare with.
-constexpr uint32_t trial_update = 4;
+constexpr uint32_t trial_update = 4, trial_update_of_directions = 16;
 constexpr int64_t min_trial_paths = 4096, max_trial_paths = 8192;
 
 bool can_be_hit(const Light& light) {
@@ -97,7 +97,8 @@ void PathTracer::pretrain(DirectionGuiding& guiding) const {
 uint32_t PathTracer::prepare(uint32_t first) {
   if (!budget_) return unlimited;
   if (first > 0 && budget_->is_recording()) {
-    if (!was_tried_ && first >= (connections_->guiding() ? last_update : trial_update)) {
+    if (!was_tried_ &&
+        first >= (connections_->guiding() ? trial_update_of_directions : trial_update)) {
       was_tried_ = true;
       record_plain_paths();
     }

@@ -24,7 +24,7 @@ struct ScatteringOrders {
 /// How a scene is to be rendered: what pbrt's Integrator, Sampler, Film and PixelFilter
 /// say.
 struct RenderSettings {
-  std::string integrator = "volpath";
+  std::string integrator = "learned";
   /// Scattering vertices between camera and light, interfaces not counted, as in pbrt-v4.
   int max_depth = 5;
   ScatteringOrders orders;

@@ -2,19 +2,43 @@
 #include "tyndall/integrators/useful_connections.h"
 
 #include <algorithm>
-#include <variant>
+
+#include "tyndall/integrators/lit_surface.h"
+#include "tyndall/integrators/pilot_points.h"
+#include "tyndall/sampling/random.h"
 
 namespace tyndall {
 namespace {
 
-bool hides_light(const Surface& surface) {
-  return !std::holds_alternative<InterfaceBsdf>(surface.material) && !surface.emission;
+// What is known of visibility can lower variance by about one over the share of the light
+// that is not hidden; it has to pay for what it costs.
+constexpr double least_hidden_share = 0.15;
+constexpr size_t max_probes = 4096;
+
+bool is_hidden(const Scene& scene, Vec3 p, const Light& light, Vec2 u) {
+  const std::optional<LightSample> sample = light.sample(p, u);
+  return sample && scene.is_occluded({p, sample->wi}, sample->distance * 0.9999f);
 }
 
-bool something_hides_light(const SceneDescription& description) {
-  return std::ranges::any_of(description.surfaces, hides_light) ||
-         std::ranges::any_of(description.objects, [](const std::vector<Surface>& object) {
-           return std::ranges::any_of(object, hides_light);
+// Whether surfaces hide lights from where light matters for the picture.
+bool something_hides_light(const Scene& scene) {
+  std::vector<Vec3> points = pilot_points(scene);
+  if (points.empty()) return false;
+  const size_t step = std::max<size_t>(points.size() / max_probes, 1);
+  size_t hidden = 0, probes = 0;
+  for (size_t i = 0; i < points.size(); i += step, ++probes) {
+    RandomStream random(hash(uint64_t{2}, i));
+    const std::optional<SelectedLight> light = scene.select_light(random.next_1d());
+    if (light && is_hidden(scene, points[i], *light->light, random.next_2d())) ++hidden;
+  }
+  return static_cast<double>(hidden) >= least_hidden_share * static_cast<double>(probes);
+}
+
+bool something_reflects(const SceneDescription& description) {
+  const auto reflects = [](const Surface& s) { return LitSurfaceSampling::finds(s); };
+  return std::ranges::any_of(description.surfaces, reflects) ||
+         std::ranges::any_of(description.objects, [&](const std::vector<Surface>& object) {
+           return std::ranges::any_of(object, reflects);
          });
 }
 
@@ -38,12 +62,17 @@ bool is_near(const Light& light, const Bounds3& box, float ratio) {
 }  // namespace
 
 ConnectionSettings useful_connections(const Scene& scene, ConnectionSettings settings) {
-  if (!something_hides_light(scene.description())) {
-    settings.visibility = false;
-    settings.lit_surfaces = 0;
-    settings.min_distance_ratio =
-        std::max(settings.min_distance_ratio, ConnectionSettings().min_distance_ratio);
+  if (settings.visibility || settings.direction) {
+    const bool is_varied =
+        !std::ranges::all_of(scene.description().media, &Medium::is_homogeneous);
+    if (!something_hides_light(scene)) {
+      settings.visibility = settings.visibility && is_varied;
+      settings.direction = settings.direction && is_varied;
+      settings.min_distance_ratio =
+          std::max(settings.min_distance_ratio, ConnectionSettings().min_distance_ratio);
+    }
   }
+  if (!something_reflects(scene.description())) settings.lit_surfaces = 0;
   const Bounds3 box = bounds_of_media(scene.description());
   const bool is_useful = std::ranges::any_of(scene.lights(), [&](const Light& light) {
     return light.extent() &&

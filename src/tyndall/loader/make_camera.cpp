@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <array>
 
-#include "tyndall/loader/make_scene_parts.h"
 #include "tyndall/integrators/nearest_name.h"
+#include "tyndall/loader/make_scene_parts.h"
 
 namespace tyndall::loader {
 namespace {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <string_view>
 
+#include "tyndall/integrators/nearest_name.h"
 #include "tyndall/loader/environment_picture.h"
 #include "tyndall/loader/make_scene_parts.h"
-#include "tyndall/integrators/nearest_name.h"
 #include "tyndall/loader/spectrum.h"
 
 namespace tyndall::loader {

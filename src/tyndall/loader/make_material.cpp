@@ -6,9 +6,9 @@
 #include <cmath>
 #include <string_view>
 
+#include "tyndall/integrators/nearest_name.h"
 #include "tyndall/loader/make_scene_parts.h"
 #include "tyndall/loader/named_spectra.h"
-#include "tyndall/integrators/nearest_name.h"
 
 namespace tyndall::loader {
 namespace {

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "tyndall/loader/make_scene_parts.h"
 #include "tyndall/integrators/nearest_name.h"
+#include "tyndall/loader/make_scene_parts.h"
 
 namespace tyndall::loader {
 namespace {

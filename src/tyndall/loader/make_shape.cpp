@@ -6,9 +6,9 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "tyndall/integrators/nearest_name.h"
 #include "tyndall/loader/make_scene_parts.h"
 #include "tyndall/loader/mesh_parts.h"
-#include "tyndall/integrators/nearest_name.h"
 #include "tyndall/loader/ply.h"
 
 namespace tyndall::loader {

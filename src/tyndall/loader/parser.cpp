@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "tyndall/loader/directives.h"
 #include "tyndall/integrators/nearest_name.h"
+#include "tyndall/loader/directives.h"
 #include "tyndall/loader/numbers.h"
 #include "tyndall/loader/scene_builder.h"
 

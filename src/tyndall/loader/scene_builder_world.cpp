@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "tyndall/loader/area_light_power.h"
 #include "tyndall/integrators/nearest_name.h"
+#include "tyndall/loader/area_light_power.h"
 #include "tyndall/loader/scene_builder.h"
 
 namespace tyndall::loader {

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "tyndall/integrators/nearest_name.h"
 #include "tyndall/loader/color_space.h"
 #include "tyndall/loader/named_spectra.h"
-#include "tyndall/integrators/nearest_name.h"
 #include "tyndall/loader/numbers.h"
 #include "tyndall/loader/spectrum.h"
 

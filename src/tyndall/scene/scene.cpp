@@ -234,8 +234,8 @@ std::optional<SurfaceHit> Scene::intersect_through(const Ray& ray, float t_max,
   return hit ? std::optional<SurfaceHit>(impl_->resolve(ray, *hit)) : std::nullopt;
 }
 
-std::optional<FoundSurface> Scene::trace(const Ray& ray, float t_max,
-                                         const Medium*& medium, MediumSpans& spans) const {
+std::optional<FoundSurface> Scene::trace(const Ray& ray, float t_max, const Medium*& medium,
+                                         MediumSpans& spans) const {
   spans.clear();
   Crossings crossings;
   const std::optional<RayHit> hit =
