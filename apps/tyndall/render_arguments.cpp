@@ -53,7 +53,7 @@ void declare_quality(Command& command, RenderArguments& a) {
       .option("--time", store(&a.time_limit, parse_duration),
               "stop after this time, at the end of the pass in hand: 30s, 10m, 1h30m",
               {.value = "TIME", .group = group})
-      .option("--integrator", &a.integrator, "how light is transported",
+      .option("--integrator", &a.integrator, "how light is transported [learned]",
               {.choices = integrator_names(), .group = group})
       .option("--maxdepth", store(&a.max_depth, parse_depth),
               "most scattering vertices between camera and light, as pbrt counts them",

@@ -7,10 +7,10 @@ import unittest
 
 from program import FOG, ProgramTest
 
-# A disk over the lamp keeps its light from half of the fog.
+# A disk over the lamp keeps its light from much of the fog.
 SHADED = FOG.replace("WorldBegin", "WorldBegin\nAttributeBegin\nRotate 90 1 0 0\n"
                      'Material "diffuse" "rgb reflectance" [.1 .1 .1]\n'
-                     'Shape "disk" "float radius" 1 "float height" -1\nAttributeEnd')
+                     'Shape "disk" "float radius" 1 "float height" -.2\nAttributeEnd')
 
 
 class InspectTest(ProgramTest):

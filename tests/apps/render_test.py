@@ -49,7 +49,7 @@ class OutputTest(ProgramTest):
         file = self.exr("a.exr")
         self.assertRegex(file["software"], r"^tyndall \d+\.\d+\.\d+$")
         self.assertEqual(file["seed"], "18446744073709551615")
-        self.assertEqual(file["integrator"], "volpath")
+        self.assertEqual(file["integrator"], "learned")
         self.assertEqual(file["samplesPerPixel"], 3)
         self.assertEqual(file["rejectedSamples"], 0)
         self.assertGreater(file["renderTimeSeconds"], 0)
@@ -111,21 +111,23 @@ class PictureTest(ProgramTest):
         self.assertTrue((self.pixels("--sampler", "sobol") !=
                          self.pixels("--sampler", "independent")).any())
 
+    # Integrators that learn, learn from the pixels that they render.
     def test_crop_is_a_window_of_the_picture(self):
-        whole = self.pixels()
-        part = self.pixels("--crop", "4,2,12,6")
+        walk = ("--integrator", "volpath")
+        whole = self.pixels(*walk)
+        part = self.pixels(*walk, "--crop", "4,2,12,6")
         self.assertEqual(self.exr("a.exr")["dataWindow"], (4, 2, 11, 5))
         self.assertEqual(self.exr("a.exr")["displayWindow"], (0, 0, 15, 7))
         np.testing.assert_array_equal(part, whole[2:6, 4:12])
-        np.testing.assert_array_equal(self.pixels("--crop", "0.25,0.25,0.75,0.75"), part)
+        np.testing.assert_array_equal(self.pixels(*walk, "--crop", "0.25,0.25,0.75,0.75"), part)
 
     def test_size(self):
         self.assertEqual(self.pixels("--size", "12x20").shape, (20, 12, 3))
 
     def test_pixel_is_printed_and_leaves_files_alone(self):
-        whole = self.pixels()
+        whole = self.pixels("--integrator", "volpath")
         self.assertEqual(self.files(), ["a.exr", "fog.pbrt"])
-        text = self.render("--pixel", "7,3").stdout
+        text = self.render("--integrator", "volpath", "--pixel", "7,3").stdout
         self.assertEqual(self.files(), ["a.exr", "fog.pbrt"])
         words = text.split()
         self.assertEqual(words[:2], ["pixel", "7,3:"])
