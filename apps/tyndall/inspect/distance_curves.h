@@ -12,11 +12,11 @@ namespace tyndall::app {
 /// Densities of the scattering vertex along a ray, and what they should be.
 struct DistanceCurves {
   size_t light;
-  Curve truth;             ///< the single scattering integrand by brute force, normalised
-  Curve learned;           ///< what is sampled with the visibility of the file
-  Curve equiangular;       ///< the same without visibility
-  float learned_variance;  ///< relative, of one sample; the light is averaged over
-  float equiangular_variance;  ///< the same without visibility
+  Curve truth = {};        ///< the single scattering integrand by brute force, normalised
+  Curve learned = {};      ///< what is sampled with the visibility of the file
+  Curve equiangular = {};  ///< the same without visibility
+  float learned_variance = {};      ///< relative, of one sample; the light is averaged over
+  float equiangular_variance = {};  ///< the same without visibility
 };
 
 /// Along a camera ray, for the light of that index or the one most likely to be drawn.

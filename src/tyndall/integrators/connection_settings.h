@@ -32,7 +32,7 @@ struct ConnectionSettings {
   size_t direction_memory = size_t{128} << 20;  ///< for what is learned [bytes]
   /// What is known of directions beforehand, for the light clusters of the scene; a render
   /// that is given this learns no more.
-  std::shared_ptr<const RecordCache> known_directions;
+  std::shared_ptr<const RecordCache> known_directions = {};
 };
 
 /// The settings of an integrator of that name with options as `--set` gives them, by dotted
