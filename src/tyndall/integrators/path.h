@@ -96,6 +96,8 @@ class Path {
   bool counts(int in_media, int on_surfaces = 0) const;
   // What one connection finds, before spectral MIS.
   Rgb connect_single(Leg& leg);
+  Rgb connect_at(Leg& leg, const DistanceSample& s, const Medium& medium,
+                 const SelectedLight& selected, float TailDensities::*technique);
   void enter(Leg& leg);
   Rgb connect_dual(Leg& leg);
   Rgb connect_forced(Leg& leg);

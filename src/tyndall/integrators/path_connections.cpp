@@ -177,17 +177,22 @@ Rgb Path::connect_single(Leg& leg) {
   if (!single) return Rgb();
   const std::optional<DistanceSample> s = single->sample(u);
   const Medium* medium = s ? leg_.proxy().medium_at(s->t) : nullptr;
-  if (!medium) return Rgb();
-  const Vertex last(leg.ray().at(s->t), -leg.ray().d, medium);
-  const Connection connection = connect_to(last, *selected);
+  return medium ? connect_at(leg, *s, *medium, *selected, &TailDensities::single) : Rgb();
+}
+
+// From a vertex of the leg in `medium` to the light, weighed as that technique's.
+Rgb Path::connect_at(Leg& leg, const DistanceSample& s, const Medium& medium,
+                     const SelectedLight& selected, float TailDensities::*technique) {
+  const Vertex last(leg.ray().at(s.t), -leg.ray().d, &medium);
+  const Connection connection = connect_to(last, selected);
   if (is_black(connection.light)) return Rgb();
   const TailDensities densities =
-      tail_densities(*rules_.connections, leg_before_, start_, leg_, s->t, connection.end);
+      tail_densities(*rules_.connections, leg_before_, start_, leg_, s.t, connection.end);
   const Rgb value =
-      leg_transmittance(leg, s->t) * medium->at(last.p()).sigma_s * connection.light;
+      leg_transmittance(leg, s.t) * medium.at(last.p()).sigma_s * connection.light;
   return beta_ * value *
-         (densities.weight(densities.single) /
-          (s->pdf_t * selected->probability * connection.end.pdf));
+         (densities.weight(densities.*technique) /
+          (s.pdf_t * selected.probability * connection.end.pdf));
 }
 
 }  // namespace tyndall

@@ -12,19 +12,10 @@ Rgb Path::connect_forced(Leg& leg) {
   const float u_light = sampler_.next_1d();
   const Medium* medium = s ? leg_.proxy().medium_at(s->t) : nullptr;
   if (!medium) return Rgb();
-  const Vertex last(leg.ray().at(s->t), -leg.ray().d, medium);
-  const std::optional<SelectedLight> selected = select_light(last.p(), u_light);
+  const std::optional<SelectedLight> selected = select_light(leg.ray().at(s->t), u_light);
   if (!selected) return Rgb();
   if (leg_.reaches_single(selected->index, s->t)) return Rgb();
-  const Connection connection = connect_to(last, *selected);
-  if (is_black(connection.light)) return Rgb();
-  const TailDensities densities =
-      tail_densities(*rules_.connections, leg_before_, start_, leg_, s->t, connection.end);
-  const Rgb value =
-      leg_transmittance(leg, s->t) * medium->at(last.p()).sigma_s * connection.light;
-  return beta_ * value *
-         (densities.weight(densities.forced) /
-          (s->pdf_t * selected->probability * connection.end.pdf));
+  return connect_at(leg, *s, *medium, *selected, &TailDensities::forced);
 }
 
 }  // namespace tyndall
