@@ -108,7 +108,9 @@ TEST_P(ForcedCollisionTest, FindsTheSunInThinFog) {
   EXPECT_GT(z_p_value(found, expected), 1e-4)
       << found.mean() << " +- " << found.standard_error() << ", expected " << expected;
   // A third of the walks collide; all forced collisions do.
-  if (GetParam() != "volpath") EXPECT_LT(found.variance(), 0.2 * expected * expected);
+  if (GetParam() != "volpath") {
+    EXPECT_LT(found.variance(), 0.2 * expected * expected);
+  }
 }
 
 // A sky, the sun and a lamp near the ray: each is left to one kind of connection, and walks
