@@ -21,7 +21,7 @@ namespace {
 class Bench {
  public:
   Bench(const BenchPlan& plan, const std::string& command_line)
-      : plan_(plan), store_(plan, command_line) {}
+      : plan_(plan), stop_(plan.quiet), store_(plan, command_line) {}
 
   /// False if a signal ended it early.
   bool run() {
@@ -167,7 +167,10 @@ void declare_arguments(Command& command, BenchPlan& plan) {
                 plan.time_limit = parse_duration(s);
               }),
               "time of each run [30s]", {.value = "DURATION"})
-      .option("--seeds", &plan.seeds, "runs of each integrator [5]", {.value = "N"})
+      .option("--seeds", ArgumentParser([&plan](const std::string& s) {
+                plan.seeds = parse_whole_number(s, 1);
+              }),
+              "runs of each integrator [5]", {.value = "N"})
       .option("--reference", &plan.reference, "what the picture should look like",
               {.value = "FILE"})
       .flag(
@@ -184,14 +187,19 @@ void declare_arguments(Command& command, BenchPlan& plan) {
                 plan.render.size = parse_size(s);
               }),
               "size of the picture", {.value = "WxH"})
-      .option("--maxdepth", &plan.render.max_depth, "scattering vertices of a path",
-              {.value = "N"})
+      .option("--maxdepth", ArgumentParser([&plan](const std::string& s) {
+                plan.render.max_depth = parse_depth(s);
+              }),
+              "scattering vertices of a path", {.value = "N"})
       .option("--set", ArgumentParser([&plan](const std::string& s) {
                 plan.render.assignments.push_back(parse_assignment(s));
               }),
               "option of all integrators; may be repeated",
               {.value = "NAME=VALUE", .repeatable = true})
-      .option("--threads", &plan.render.threads, "how many [all]", {.value = "N"})
+      .option("--threads", ArgumentParser([&plan](const std::string& s) {
+                plan.render.threads = parse_threads(s);
+              }),
+              "how many [all]", {.value = "N"})
       .option("--epsilon", &plan.epsilon, "in relMSE [0.01]", {.value = "X"})
       .flag("--no-flip", &plan.no_flip, "leave out FLIP, which is slow")
       .flag("-q,--quiet", &plan.quiet, "print no progress");

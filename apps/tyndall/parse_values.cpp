@@ -20,6 +20,11 @@ namespace {
   throw std::invalid_argument(fmt::format("must be {}, got '{}'", expected, text));
 }
 
+template <typename Number>
+[[noreturn]] void reject_whole_number(const std::string& text, Number min, Number max) {
+  reject(fmt::format("a whole number from {} to {}", min, max), text);
+}
+
 /// Empty unless the whole text is one finite number in the range of its type.
 template <typename Number>
 std::optional<Number> to_number(const std::string& text) {
@@ -77,9 +82,8 @@ template <typename Number>
 Number parse_number(const std::string& text) {
   if (const std::optional<Number> number = to_number<Number>(text)) return *number;
   if (std::is_floating_point_v<Number>) reject("a number", text);
-  reject(fmt::format("a whole number from {} to {}", std::numeric_limits<Number>::min(),
-                     std::numeric_limits<Number>::max()),
-         text);
+  reject_whole_number(text, std::numeric_limits<Number>::min(),
+                      std::numeric_limits<Number>::max());
 }
 
 template int parse_number<int>(const std::string&);
@@ -87,6 +91,20 @@ template uint32_t parse_number<uint32_t>(const std::string&);
 template uint64_t parse_number<uint64_t>(const std::string&);
 template float parse_number<float>(const std::string&);
 template double parse_number<double>(const std::string&);
+
+template <typename Number>
+Number parse_whole_number(const std::string& text, Number min, Number max) {
+  const std::optional<Number> number = to_number<Number>(text);
+  if (!number || *number < min || *number > max) reject_whole_number(text, min, max);
+  return *number;
+}
+
+template int parse_whole_number<int>(const std::string&, int, int);
+template uint32_t parse_whole_number<uint32_t>(const std::string&, uint32_t, uint32_t);
+
+int parse_threads(const std::string& text) { return parse_whole_number(text, 0, 4096); }
+
+int parse_depth(const std::string& text) { return parse_whole_number(text, 0); }
 
 double parse_duration(const std::string& text) {
   const std::string expected = "a positive time such as 30s, 10m or 1h30m";

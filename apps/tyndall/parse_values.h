@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -14,6 +15,17 @@ namespace tyndall::app {
 /// A number of type int, uint32_t, uint64_t, float or double; the whole text must be one.
 template <typename Number>
 Number parse_number(const std::string& text);
+
+/// A whole number from `min` to `max`; types as above.
+template <typename Number>
+Number parse_whole_number(const std::string& text, Number min,
+                          Number max = std::numeric_limits<Number>::max());
+
+/// Worker threads: 0, for all there are, to 4096.
+int parse_threads(const std::string& text);
+
+/// Scattering vertices of a path, at least 0.
+int parse_depth(const std::string& text);
 
 /// "30s", "10m", "1.5h", "1h30m", or a plain number of seconds; must be positive [s].
 double parse_duration(const std::string& text);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdlib>
 
 #include "tyndall/integrators/render.h"
 
@@ -17,24 +18,8 @@ ArgumentParser store(Target* target, Parse parse) {
   return [target, parse](const std::string& text) { *target = parse(text); };
 }
 
-int parse_threads(const std::string& text) {
-  const int threads = parse_number<int>(text);
-  if (threads < 0 || threads > 4096)
-    throw std::invalid_argument(fmt::format("must lie between 0 and 4096, got '{}'", text));
-  return threads;
-}
-
 uint32_t parse_sample_count(const std::string& text) {
-  const uint32_t count = parse_number<uint32_t>(text);
-  if (count == 0) throw std::invalid_argument("must be at least 1, got '0'");
-  return count;
-}
-
-int parse_depth(const std::string& text) {
-  const int depth = parse_number<int>(text);
-  if (depth < 0)
-    throw std::invalid_argument(fmt::format("must not be negative, got '{}'", text));
-  return depth;
+  return parse_whole_number(text, uint32_t{1});
 }
 
 float parse_exposure(const std::string& text) {
@@ -156,6 +141,16 @@ void resize(Vec2i size, RenderSettings& s) {
   s.resolution = size;
 }
 
+/// What the command line says wins over the environment; both at once is a mistake.
+bool wants_half(const RenderArguments& a) {
+  if (!(a.half && a.full_float)) return a.half;
+  const bool half_may_be_ambient = std::getenv("TYNDALL_HALF") != nullptr;
+  const bool float_may_be_ambient = std::getenv("TYNDALL_FLOAT") != nullptr;
+  if (half_may_be_ambient == float_may_be_ambient)
+    throw UsageError("--half and --float exclude each other");
+  return float_may_be_ambient;
+}
+
 }  // namespace
 
 void declare_render_arguments(Command& command, RenderArguments& arguments) {
@@ -183,7 +178,7 @@ void apply(const RenderArguments& a, RenderSettings& settings) {
 
 WriteOptions write_options(const RenderArguments& a) {
   WriteOptions options;
-  options.half = a.half && !a.full_float;
+  options.half = wants_half(a);
   options.tone.dither = true;
   options.tone.exposure = a.exposure;
   options.tone.curve = a.tone == "filmic" ? ToneCurve::filmic : ToneCurve::plain;

@@ -53,7 +53,7 @@ void declare_render_arguments(Command& command, RenderArguments& arguments);
 /// window or pixel outside the picture, std::invalid_argument for a bad assignment.
 void apply(const RenderArguments& arguments, RenderSettings& settings);
 
-/// How images are to be written.
+/// How images are to be written. Throws UsageError for --half together with --float.
 WriteOptions write_options(const RenderArguments& arguments);
 
 }  // namespace tyndall::app

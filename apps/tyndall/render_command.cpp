@@ -4,7 +4,7 @@
 
 #include <chrono>
 #include <cstdlib>
-#include <set>
+#include <stdexcept>
 
 #include "apps/tyndall/commands.h"
 #include "apps/tyndall/memory_check.h"
@@ -41,6 +41,12 @@ std::vector<std::string> output_paths(const RenderArguments& arguments,
                                       const RenderSettings& settings) {
   if (!arguments.outputs.empty()) return arguments.outputs;
   if (arguments.pixel) return {};
+  try {
+    check_outputs({settings.output});
+  } catch (const std::invalid_argument& error) {
+    throw std::runtime_error(
+        fmt::format("{}: the Film's filename: {}", arguments.scene, error.what()));
+  }
   return {settings.output};
 }
 
@@ -70,15 +76,15 @@ void print_report(const RenderReport& report, const RenderArguments& arguments,
     fmt::print("{}", describe_pixel(image));
 }
 
-ExitCode render_and_write(const RenderArguments& arguments, RenderReport report,
-                          const Scene& scene) {
-  const StopOnSignal stop;  // until the outputs are written
+ExitCode render_and_write(const RenderArguments& arguments, const WriteOptions& how,
+                          RenderReport report, const Scene& scene) {
+  const StopOnSignal stop(arguments.quiet);  // until the outputs are written
   const RenderResult result = run_render(scene, arguments, report.settings, stop);
   report.statistics = result.statistics;
   Image image = result.film.develop();
   add_metadata(image, scene.camera(), report.settings, report.statistics, report.scene,
                report.command_line);
-  write_outputs(image, report.outputs, write_options(arguments));
+  write_outputs(image, report.outputs, how);
   if (arguments.guiding) write_bytes(result.guiding, *arguments.guiding);
   print_report(report, arguments, image);
   return report.statistics.stopped_early ? ExitCode::stopped : ExitCode::done;
@@ -86,6 +92,7 @@ ExitCode render_and_write(const RenderArguments& arguments, RenderReport report,
 
 ExitCode run_render_command(const RenderArguments& arguments,
                             const std::string& command_line) {
+  const WriteOptions how = write_options(arguments);
   check_outputs(arguments.outputs);
   if (arguments.guiding) check_bytes_writable(*arguments.guiding);
   SceneInput input(arguments.scene, arguments.strict, arguments.quiet);
@@ -101,7 +108,6 @@ ExitCode run_render_command(const RenderArguments& arguments,
       resized(loaded.scene.camera, size_in_file, loaded.settings.resolution);
   report.settings = loaded.settings;
   report.outputs = output_paths(arguments, report.settings);
-  check_outputs(report.outputs);
   check_film_fits(report.settings.crop_min, report.settings.crop_max, available_memory());
   report.load_seconds = seconds_since(start);
 
@@ -117,7 +123,7 @@ ExitCode run_render_command(const RenderArguments& arguments,
                  report.warning_count);
     return ExitCode::done;
   }
-  return render_and_write(arguments, std::move(report), scene);
+  return render_and_write(arguments, how, std::move(report), scene);
 }
 
 }  // namespace

@@ -10,8 +10,8 @@ namespace tyndall::app {
 
 namespace {
 
-std::atomic<bool> stop_requested{false};
-static_assert(std::atomic<bool>::is_always_lock_free, "set from a signal handler");
+std::atomic<bool> stop_requested{false}, quiet{false};
+static_assert(std::atomic<bool>::is_always_lock_free, "used in a signal handler");
 
 // Only calls that are safe in a signal handler.
 extern "C" void handle_stop_signal(int signal) {
@@ -20,6 +20,7 @@ extern "C" void handle_stop_signal(int signal) {
     std::raise(signal);
     return;
   }
+  if (quiet) return;
   constexpr std::string_view message =
       "\nstopping after the pass in hand; a second signal ends at once\n";
   [[maybe_unused]] const ssize_t written =
@@ -37,8 +38,9 @@ void install(void (*handler)(int)) {
 
 }  // namespace
 
-StopOnSignal::StopOnSignal() {
+StopOnSignal::StopOnSignal(bool is_quiet) {
   stop_requested = false;
+  quiet = is_quiet;
   install(handle_stop_signal);
 }
 

@@ -10,7 +10,8 @@
 
 namespace tyndall::app {
 
-/// Throws OutputError if one of the files could not be written. Leaves nothing behind.
+/// Throws std::invalid_argument if a name has no extension of an image file, OutputError if
+/// one of the files could not be written. Leaves nothing behind.
 void check_outputs(const std::vector<std::string>& paths);
 
 /// Writes all the files. If one fails, the image goes as EXR to the folder of temporary

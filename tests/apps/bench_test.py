@@ -157,7 +157,7 @@ class MessageTest(BenchTest):
                    "--reference", "a.exr")
 
     def test_numbers(self):
-        self.check(1, "--seeds must be above 0, got 0", "--seeds", "0")
+        self.check(1, "--seeds: must be a whole number from 1 to 2147483647, got '0'", "--seeds", "0")
         self.check(1, "--epsilon must be above 0, got 0", "--epsilon", "0")
 
     def test_integrators(self):

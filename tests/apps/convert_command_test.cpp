@@ -110,7 +110,7 @@ TEST_F(ConvertCommandTest, ReportsWrongArguments) {
 
 TEST_F(ConvertCommandTest, ReportsFiles) {
   const std::string a = write("a.exr", 1), other = write("o.exr", 1, 3, 3);
-  EXPECT_EQ(run({"convert", a, folder.file("b.tiff")}), ExitCode::output);
+  EXPECT_EQ(run({"convert", a, folder.file("b.tiff")}), ExitCode::usage);
   EXPECT_EQ(
       err,
       "error: " + folder.file("b.tiff") +

@@ -32,6 +32,24 @@ TEST(ParseNumber, TakesTheWholeTextOnly) {
   EXPECT_EQ(refusal(parse_number<float>, "1e99"), "must be a number, got '1e99'");
 }
 
+TEST(ParseWholeNumber, SaysItsRange) {
+  const auto at_least_one = [](const std::string& text) {
+    return parse_whole_number(text, uint32_t{1});
+  };
+  EXPECT_EQ(at_least_one("1"), 1u);
+  EXPECT_EQ(at_least_one("4294967295"), 4294967295u);
+  for (const std::string text : {"0", "x", "-1", "1.5", "", "4294967296"})
+    EXPECT_EQ(refusal(at_least_one, text),
+              "must be a whole number from 1 to 4294967295, got '" + text + "'");
+  EXPECT_EQ(parse_threads("4096"), 4096);
+  for (const std::string text : {"-1", "4097", "all"})
+    EXPECT_EQ(refusal(parse_threads, text),
+              "must be a whole number from 0 to 4096, got '" + text + "'");
+  EXPECT_EQ(parse_depth("0"), 0);
+  EXPECT_EQ(refusal(parse_depth, "-1"),
+            "must be a whole number from 0 to 2147483647, got '-1'");
+}
+
 TEST(ParseDuration, AddsUnits) {
   EXPECT_DOUBLE_EQ(parse_duration("30s"), 30);
   EXPECT_DOUBLE_EQ(parse_duration("10m"), 600);

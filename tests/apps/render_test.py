@@ -7,6 +7,7 @@ import os
 import signal
 import struct
 import subprocess
+import time
 import unittest
 
 import numpy as np
@@ -41,8 +42,12 @@ class OutputTest(ProgramTest):
         self.render("-o", "half.exr", "--half")
         types = self.exr("half.exr").channel_types()
         self.assertEqual((types["R"], types["depth.Z"], types["spp.Y"]), ("<f2", "<f4", "<f4"))
-        self.render("-o", "float.exr", "--half", "--float")
+        self.render("-o", "float.exr", "--float")
         self.assertEqual(self.exr("float.exr").channel_types()["R"], "<f4")
+        self.render("-o", "float.exr", "--float", TYNDALL_HALF="1")
+        self.assertEqual(self.exr("float.exr").channel_types()["R"], "<f4")
+        self.render("-o", "half.exr", "--half", TYNDALL_FLOAT="1")
+        self.assertEqual(self.exr("half.exr").channel_types()["R"], "<f2")
 
     def test_metadata(self):
         self.render("-o", "a.exr", "--seed", "18446744073709551615", "--spp", "3")
@@ -189,7 +194,13 @@ class UsageTest(ProgramTest):
         self.check([], "error: SCENE is required\n" + SEE)
         self.check(["fog.pbrt", "--ssp", "4"],
                    "error: unknown argument '--ssp'; did you mean --spp?\n" + SEE)
-        self.check(["fog.pbrt", "--spp", "0"], "error: --spp: must be at least 1, got '0'\n" + SEE)
+        self.check(["fog.pbrt", "--spp", "0"], "error: --spp: must be a whole number from 1 to 4294967295, got '0'\n" + SEE)
+        self.check(["fog.pbrt", "--spp", "x"],
+                   "error: --spp: must be a whole number from 1 to 4294967295, got 'x'\n" + SEE)
+        self.check(["fog.pbrt", "--half", "--float"], "error: --half and --float exclude each other\n")
+        self.check(["fog.pbrt", "-o", "a.exr", "-o", "a.gif"],
+                   'error: a.gif: unknown image extension ".gif"; known are .exr, .hdr, .pfm and '
+                   '.png\n')
         self.check(["fog.pbrt", "--size", "0x0"],
                    "error: --size: must be a width and a height of at least 1, such as 640x360, "
                    "got '0x0'\n" + SEE)
@@ -227,9 +238,6 @@ class OutputErrorTest(ProgramTest):
     def test_no_such_folder(self):
         self.check("nowhere/a.exr", "nowhere")
 
-    def test_unknown_kind(self):
-        self.check("a.gif", ".gif")
-
     def test_folder_in_the_way(self):
         (self.folder / "a.exr").mkdir()
         self.check("a.exr", "a.exr")
@@ -249,6 +257,14 @@ class OutputErrorTest(ProgramTest):
         self.write("fog.pbrt", FOG.replace("fog.exr", "nowhere/fog.exr"))
         result = self.run_program("render", "fog.pbrt", "--spp", "100000000")
         self.assertEqual(result.returncode, 5)
+
+    def test_default_output_of_unknown_kind(self):
+        self.write("fog.pbrt", FOG.replace("fog.exr", "fog.tif"))
+        result = self.run_program("render", "fog.pbrt", "--spp", "100000000")
+        self.assertEqual((result.returncode, result.stderr), (
+            2, 'error: fog.pbrt: the Film\'s filename: fog.tif: unknown image extension ".tif"; '
+            "known are .exr, .hdr, .pfm and .png\n"))
+        self.assertEqual(self.render("-o", "a.exr").returncode, 0)
 
 
 class SceneErrorTest(ProgramTest):
@@ -348,6 +364,25 @@ class StoppingTest(ProgramTest):
 
     def test_termination_writes_a_valid_picture(self):
         self.check_first_signal(signal.SIGTERM)
+
+    @staticmethod
+    def catches(process, number):
+        with open(f"/proc/{process.pid}/status") as status:
+            caught = next(line.split()[1] for line in status if line.startswith("SigCgt:"))
+        return int(caught, 16) >> (number - 1) & 1
+
+    def test_quiet_says_nothing(self):
+        process = self.start_program("render", "fog.pbrt", "-o", "a.exr", "--spp", "100000000",
+                                     "--size", "64x64", "--time", "100s", "-q")
+        self.addCleanup(process.kill)
+        self.addCleanup(process.stderr.close)
+        self.addCleanup(process.stdout.close)
+        while process.poll() is None and not self.catches(process, signal.SIGINT):
+            time.sleep(0.01)
+        process.send_signal(signal.SIGINT)
+        out, err = process.communicate(timeout=60)
+        self.assertEqual((process.returncode, out, err), (4, "", ""))
+        self.check_partial_picture()
 
     def test_second_signal_kills(self):
         process = self.start_and_wait("--size", "3000x3000")

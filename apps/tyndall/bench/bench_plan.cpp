@@ -76,8 +76,6 @@ std::vector<std::string> scene_names(const std::vector<std::string>& paths) {
 }
 
 void check_plan(const BenchPlan& plan) {
-  if (plan.seeds < 1)
-    throw UsageError(fmt::format("--seeds must be above 0, got {}", plan.seeds));
   if (plan.reference && plan.make_reference) {
     throw UsageError("--reference and --make-reference exclude each other");
   }

@@ -31,7 +31,7 @@ Format format_of_path(const std::string& path) {
   if (extension == ".hdr") return Format::hdr;
   if (extension == ".pfm") return Format::pfm;
   if (extension == ".png") return Format::png;
-  throw std::runtime_error(
+  throw std::invalid_argument(
       fmt::format("{}: unknown image extension \"{}\"; known are .exr, .hdr, .pfm and .png",
                   path, extension));
 }

@@ -20,12 +20,13 @@ Image read_image(const std::string& path);
 
 /// Writes by the extension: .exr, .hdr, .pfm or .png; only .exr keeps more than R, G, B.
 /// Writes to a temporary name first and renames, so that an interrupted write never
-/// destroys an older file. Throws std::runtime_error.
+/// destroys an older file. Throws std::invalid_argument for any other extension,
+/// std::runtime_error if the file cannot be written.
 void write_image(const Image& image, const std::string& path,
                  const WriteOptions& options = {});
 
-/// Throws std::runtime_error if write_image() could not write there: unknown extension, no
-/// such folder, no permission. Leaves no file behind.
+/// Throws what write_image() would throw for an unknown extension, for want of a folder or
+/// of permission. Leaves no file behind.
 void check_writable(const std::string& path);
 
 }  // namespace tyndall

@@ -40,7 +40,7 @@ Diagnostic Reporter::diagnostic(Severity severity, Span where, std::string messa
 }
 
 void Reporter::error(Span where, std::string message) {
-  errors_.push_back(diagnostic(Severity::error, where, std::move(message)));
+  errors_.emplace_back(where, diagnostic(Severity::error, where, std::move(message)));
   if (errors_.size() >= max_errors) throw_if_errors();
 }
 
@@ -60,7 +60,14 @@ void Reporter::unsupported(Span where, std::string message) {
 }
 
 void Reporter::throw_if_errors() const {
-  if (has_errors()) throw SceneError(errors_);
+  if (!has_errors()) return;
+  auto ordered = errors_;
+  std::stable_sort(ordered.begin(), ordered.end(), [this](const auto& a, const auto& b) {
+    return sources_.is_before(a.first, b.first);
+  });
+  std::vector<Diagnostic> diagnostics;
+  for (auto& [where, error] : ordered) diagnostics.push_back(std::move(error));
+  throw SceneError(std::move(diagnostics));
 }
 
 }  // namespace tyndall::loader

@@ -39,7 +39,7 @@ class Reporter {
   void unsupported(Span where, std::string message);
 
   bool has_errors() const { return !errors_.empty(); }
-  /// Throws SceneError if there was any error.
+  /// Throws SceneError if there was any error, the errors in the order of the text.
   void throw_if_errors() const;
   std::vector<Diagnostic> take_warnings() { return std::move(warnings_); }
   const SourceLibrary& sources() const { return sources_; }
@@ -50,7 +50,8 @@ class Reporter {
 
   const SourceLibrary& sources_;
   const LoadOptions& options_;
-  std::vector<Diagnostic> errors_, warnings_;
+  std::vector<std::pair<Span, Diagnostic>> errors_;
+  std::vector<Diagnostic> warnings_;
   std::map<std::string, int> warned_;  // how often, by message
 };
 

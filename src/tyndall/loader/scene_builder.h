@@ -3,7 +3,6 @@
 
 #include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -118,7 +117,9 @@ class SceneBuilder {
   Surface resolved(PendingSurface pending);
   std::vector<Surface> resolved(std::vector<PendingSurface> pending);
   std::vector<ObjectInstance> resolved_instances();
-  bool is_first_report(Span where);
+  template <typename Map>
+  void miss(std::string_view kind, const std::string& name, const Map& known, Span where);
+  void report_missing();
 
   const FileFinder& files_;
   Reporter& reporter_;
@@ -146,7 +147,7 @@ class SceneBuilder {
   bool is_in_object_ = false;
   std::vector<PendingInstance> instances_;
   std::vector<Light> lights_;
-  std::set<std::pair<uint32_t, uint32_t>> reported_;  // places of names that do not exist
+  std::map<std::pair<uint32_t, uint32_t>, Failure> missing_;  // names, by their places
 };
 
 }  // namespace tyndall::loader

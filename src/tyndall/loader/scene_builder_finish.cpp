@@ -10,17 +10,31 @@
 namespace tyndall::loader {
 
 // A name that does not exist is reported once, where it is brought in, not for each shape.
-bool SceneBuilder::is_first_report(Span where) {
-  return reported_.emplace(where.source, where.begin).second;
+template <typename Map>
+void SceneBuilder::miss(std::string_view kind, const std::string& name, const Map& known,
+                        Span where) {
+  const auto [entry, is_new] =
+      missing_.try_emplace({where.source, where.begin}, Failure{where, {}});
+  if (is_new)
+    entry->second.message = fmt::format("there is no {} named \"{}\"{}", kind, name,
+                                        did_you_mean(name, keys_of(known)));
+}
+
+// Names are looked up by kind; a reader goes from top to bottom.
+void SceneBuilder::report_missing() {
+  std::vector<Failure> failures;
+  for (auto& [place, failure] : missing_) failures.push_back(std::move(failure));
+  std::sort(failures.begin(), failures.end(), [this](const Failure& a, const Failure& b) {
+    return reporter_.sources().is_before(a.where, b.where);
+  });
+  for (Failure& failure : failures) reporter_.error(failure.where, failure.message);
 }
 
 int SceneBuilder::medium_index(const std::string& name, Span where) {
   if (name.empty()) return no_medium;
   const auto found = media_by_name_.find(name);
   if (found != media_by_name_.end()) return found->second;
-  if (is_first_report(where))
-    reporter_.error(where, fmt::format("there is no medium named \"{}\"{}", name,
-                                       did_you_mean(name, keys_of(media_by_name_))));
+  miss("medium", name, media_by_name_, where);
   return no_medium;
 }
 
@@ -28,10 +42,7 @@ Material SceneBuilder::resolved(const MaterialReference& reference) {
   if (reference.name.empty()) return reference.material;
   const auto found = materials_.find(reference.name);
   if (found != materials_.end()) return found->second;
-  if (is_first_report(reference.where))
-    reporter_.error(reference.where,
-                    fmt::format("there is no material named \"{}\"{}", reference.name,
-                                did_you_mean(reference.name, keys_of(materials_))));
+  miss("material", reference.name, materials_, reference.where);
   return reference.material;
 }
 
@@ -58,10 +69,7 @@ std::vector<ObjectInstance> SceneBuilder::resolved_instances() {
     if (found != objects_by_name_.end())
       instances.push_back({found->second, instance.world_from_object});
     else
-      reporter_.error(
-          instance.where,
-          fmt::format("there is no object named \"{}\"{}", instance.object,
-                      did_you_mean(instance.object, keys_of(objects_by_name_))));
+      miss("object", instance.object, objects_by_name_, instance.where);
   }
   return instances;
 }
@@ -95,6 +103,7 @@ LoadedScene SceneBuilder::finish(Span end) {
   scene.instances = resolved_instances();
   scene.media = std::move(media_);
   scene.lights = std::move(lights_);
+  report_missing();
   reporter_.throw_if_errors();
   if (!camera_) reporter_.error(world_begin_, "the scene has no Camera before WorldBegin");
   check_lights(scene, end);

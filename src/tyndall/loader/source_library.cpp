@@ -37,6 +37,19 @@ SourceLocation SourceLibrary::locate(Span span) const {
           .column = static_cast<int>(span.begin - start + 1)};
 }
 
+// Where the span starts, after the inclusions on the way to it, the outermost first.
+std::vector<uint32_t> SourceLibrary::offsets_from_root(Span span) const {
+  std::vector<uint32_t> offsets;
+  for (std::optional<Span> at = span; at; at = sources_[at->source].source.included_at)
+    offsets.push_back(at->begin);
+  std::reverse(offsets.begin(), offsets.end());
+  return offsets;
+}
+
+bool SourceLibrary::is_before(Span a, Span b) const {
+  return offsets_from_root(a) < offsets_from_root(b);
+}
+
 std::string_view SourceLibrary::line(Span span) const {
   const std::string_view text = *sources_[span.source].source.text;
   const std::string_view rest = text.substr(line_starts(span.source)[line_index(span)]);

@@ -42,6 +42,8 @@ class SourceLibrary {
 
   /// Line and column count from one, columns in bytes.
   SourceLocation locate(Span span) const;
+  /// Whether `a` is read before `b`: included files stand where they are included.
+  bool is_before(Span a, Span b) const;
   /// The line on which the span starts, without its end.
   std::string_view line(Span span) const;
 
@@ -51,6 +53,7 @@ class SourceLibrary {
     mutable std::vector<uint32_t> line_starts;  // filled by the first question
   };
   const std::vector<uint32_t>& line_starts(uint32_t source) const;
+  std::vector<uint32_t> offsets_from_root(Span span) const;
   size_t line_index(Span span) const;
 
   std::deque<Indexed> sources_;
