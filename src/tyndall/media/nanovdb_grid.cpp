@@ -167,7 +167,7 @@ struct Block {
 template <typename Build>
 BrickGrid::Prepare leaf_reader(GridImage& image, const BrickLayout& layout) {
   return [&image, layout, ready = 0](int first, int last) mutable {
-    if (first < ready) return;
+    if (last <= ready) return;
     constexpr int parts = 6;
     ready = std::max(last, first + (layout.brick_count.x + parts - 1) / parts);
     const auto voxel = [&](int brick) { return layout.origin.x + brick * BrickGrid::edge; };
