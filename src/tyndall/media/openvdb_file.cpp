@@ -10,6 +10,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "tyndall/media/mapped_pages.h"
 #include "tyndall/media/volume_bricks.h"
 
 namespace tyndall {
@@ -121,10 +122,10 @@ void drop_leaves_below(Tree& tree, int x) {
     delete tree.template stealNode<Leaf>(origin, 0, false);
 }
 
-// The grid's values are read when they are first looked at; leaves that lie behind the
-// bricks in hand are dropped.
+// The grid's values are read out of a map of the file when they are first looked at; leaves
+// that lie behind the bricks in hand are dropped, and so is what was read of the map.
 template <typename GridType>
-PlacedGrid convert(GridType& grid) {
+PlacedGrid convert(GridType& grid, const std::filesystem::path& path) {
   using Tree = typename GridType::TreeType;
   const openvdb::CoordBBox box = grid.evalActiveVoxelBoundingBox();
   if (box.empty()) return empty_grid();
@@ -141,6 +142,7 @@ PlacedGrid convert(GridType& grid) {
   };
   const auto drop_leaves = [&](int first, int /*last*/) {
     drop_leaves_below(grid.tree(), layout.origin.x + first * BrickGrid::edge);
+    release_mapped_pages(path);
   };
   return place_bricks(layout, medium_from_voxel(grid), source, drop_leaves);
 }
@@ -169,9 +171,9 @@ PlacedGrid read_openvdb_grid(const std::filesystem::path& path, const std::strin
   return with_file(path, [&](openvdb::io::File& file) {
     const openvdb::GridBase::Ptr grid = file.readGrid(name);
     if (const auto floats = openvdb::gridPtrCast<openvdb::FloatGrid>(grid))
-      return convert(*floats);
+      return convert(*floats, path);
     if (const auto doubles = openvdb::gridPtrCast<openvdb::DoubleGrid>(grid))
-      return convert(*doubles);
+      return convert(*doubles, path);
     throw std::runtime_error(
         fmt::format("grids of type {} hold no density", grid->valueType()));
   });
