@@ -10,6 +10,8 @@
 #include <map>
 #include <utility>
 
+#include "tyndall/media/huge_pages.h"
+
 namespace tyndall {
 namespace {
 
@@ -102,6 +104,8 @@ BrickGrid::BrickGrid(Vec3i brick_count, const Source& source, Precision precisio
   }
   values_.shrink_to_fit();
   codes_.shrink_to_fit();
+  prefer_huge_pages(values_.data(), values_.size() * sizeof(float));
+  prefer_huge_pages(codes_.data(), codes_.size() * sizeof(uint16_t));
 }
 
 void BrickGrid::add_slab(int first, int last, const Source& source,
