@@ -20,8 +20,8 @@ constexpr Rgb grey(float x) { return {x, x, x}; }
 // reflects D65 at normal incidence with the color that its spectra give, at most 0.99 (gold
 // leaves the gamut): eta at the dominant wavelengths of the Rec. 709 primaries,
 // 611, 549 and 465 nm, and k, or eta where k is zero, solved for the reflectance. Spectra
-// from [Luxpop26], the same in pbrt-v4 and Mitsuba 3; brass as it is at those wavelengths
-// [Querry85]. Glasses at 587.6 nm from Schott's catalogue; pbrt-v4 calls SF5 F5, and so on.
+// from [Luxpop26], the same in pbrt-v4 and Mitsuba 3; brass is Cu70Zn30 of [Querry85].
+// Glasses at 587.6 nm from Schott's catalogue; pbrt-v4 calls SF5 F5, and so on.
 constexpr std::array materials{
     Entry{"glass-BK7", grey(1.5168f)},
     Entry{"glass-BAF10", grey(1.6700f)},
@@ -41,8 +41,8 @@ constexpr std::array materials{
     Entry{"metal-Au-k", {8.971f, 2.166f, 1.653f}},
     Entry{"metal-Cu-eta", {0.319f, 0.966f, 1.157f}},
     Entry{"metal-Cu-k", {5.178f, 2.607f, 2.317f}},
-    Entry{"metal-CuZn-eta", {0.444f, 0.527f, 1.094f}},
-    Entry{"metal-CuZn-k", {3.695f, 2.765f, 1.829f}},
+    Entry{"metal-CuZn-eta", {0.452f, 0.529f, 0.947f}},
+    Entry{"metal-CuZn-k", {4.230f, 2.683f, 1.666f}},
     Entry{"metal-MgO-eta", {1.734f, 1.741f, 1.754f}},
     Entry{"metal-MgO-k", grey(0)},
     Entry{"metal-TiO2-eta", {2.860f, 2.957f, 3.186f}},
