@@ -12,7 +12,8 @@ namespace {
 
 Rgb estimate(const HomogeneousMedium& medium, const Ray& ray, float t_max,
              RandomStream& /*rng*/, TransmittanceMethod /*method*/) {
-  return exp(-1 * optical_depth(medium.at(ray.o).sigma_t(), t_max));
+  const Rgb depth = optical_depth(medium.at(ray.o).sigma_t(), t_max);
+  return is_grey(depth) ? Rgb(std::exp(-depth.r)) : exp(-1 * depth);
 }
 
 template <typename M>

@@ -102,6 +102,10 @@ class Scene::Impl {
   // the end.
   const Medium* cut(const Ray& ray, float t_end, const Medium* medium,
                     const Crossings& crossings, MediumSpans& spans) const {
+    if (crossings.empty()) {
+      spans.push_back({0, t_end, medium});
+      return medium;
+    }
     BoundarySteps steps(ray, t_end);
     for (const SceneHit& hit : crossings) steps.add(resolve(hit));
     float t = 0;
