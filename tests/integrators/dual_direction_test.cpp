@@ -39,9 +39,9 @@ class DualDirectionTest : public testing::TestWithParam<float> {
 };
 
 INSTANTIATE_TEST_SUITE_P(G, DualDirectionTest, testing::Values(0.0f, 0.6f, -0.4f),
-                         [](const auto& info) {
+                         [](const auto& tested) {
                            return "g" + std::to_string(static_cast<int>(
-                                            std::lround(100 + 100 * info.param)));
+                                            std::lround(100 + 100 * tested.param)));
                          });
 
 TEST_P(DualDirectionTest, SamplesFollowTheDensity) {

@@ -89,7 +89,9 @@ TEST(PredictedVisibilityTest, AWrongMapIsNoBias) {
         << guided.mean() << " +- " << guided.standard_error();
     if (!maps) right_variance = guided.variance();
     // The maps do guide: wrong ones cost variance.
-    if (maps == inverted) EXPECT_GT(guided.variance(), right_variance);
+    if (maps == inverted) {
+      EXPECT_GT(guided.variance(), right_variance);
+    }
   }
 }
 
