@@ -12,11 +12,11 @@ namespace tyndall::loader {
 namespace {
 
 constexpr int64_t max_pixels = int64_t{1} << 28;
-constexpr Range at_least_one{1, infinity};
+constexpr Range at_least_one_pixel{1, infinity};
 
 void read_resolution(ParameterSet& parameters, RenderSettings& settings) {
-  settings.resolution.x = parameters.integer("xresolution", 1280, at_least_one);
-  settings.resolution.y = parameters.integer("yresolution", 720, at_least_one);
+  settings.resolution.x = parameters.integer("xresolution", 1280, at_least_one_pixel);
+  settings.resolution.y = parameters.integer("yresolution", 720, at_least_one_pixel);
   const auto [x, y] = settings.resolution;
   if (int64_t{x} * int64_t{y} > max_pixels) {
     parameters.error("xresolution",
