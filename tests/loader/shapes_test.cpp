@@ -63,6 +63,25 @@ TEST(LoadShapeTest, OrientationFollowsPbrt) {
   EXPECT_EQ(outside_of("ReverseOrientation " + triangle + normals), (Vec3{0, 0, 1}));
 }
 
+// As pbrt-v4: a mirror alone turns a sphere inside out; exporters of left-handed worlds add
+// ReverseOrientation.
+TEST(LoadShapeTest, OrientationOfQuadricsFollowsPbrt) {
+  const auto faces_out = [](const std::string& world) {
+    const SurfacePoint on =
+        surface_point(surface_of(world + " Shape \"sphere\"").shape, 0, {0.3f, 0.4f});
+    return dot(on.ng, on.p) > 0;
+  };
+  EXPECT_TRUE(faces_out(""));
+  EXPECT_TRUE(faces_out("Rotate 50 1 2 3"));
+  EXPECT_FALSE(faces_out("ReverseOrientation"));
+  EXPECT_FALSE(faces_out("Scale 1 1 -1"));
+  EXPECT_TRUE(faces_out("ReverseOrientation Scale 1 1 -1"));
+  const std::string disk = "Shape \"disk\"";
+  EXPECT_EQ(outside_of(disk), (Vec3{0, 0, 1}));
+  EXPECT_EQ(outside_of("Scale -1 1 1 " + disk), (Vec3{0, 0, -1}));
+  EXPECT_EQ(outside_of("ReverseOrientation Scale -1 1 1 " + disk), (Vec3{0, 0, 1}));
+}
+
 TEST(LoadShapeTest, BilinearMeshesFaceByTheirCorners) {
   const std::string patch = "Shape \"bilinearmesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0 1 1 0]";
   EXPECT_EQ(outside_of(patch), (Vec3{0, 0, 1}));

@@ -19,6 +19,11 @@ struct ShapeContext {
   const Transform& world_from_object;
   bool reverse_orientation;
   const FileFinder& files;
+
+  // pbrt-v4's rule for shapes without normals of their own.
+  bool flips_normals() const {
+    return reverse_orientation != world_from_object.swaps_handedness();
+  }
 };
 
 // Per-vertex values must be as many as vertices; otherwise they are dropped.
@@ -97,8 +102,7 @@ std::optional<Shape> make_bilinear(const ShapeContext& in) {
     patches.push_back({indices[i], indices[i + 1], indices[i + 2], indices[i + 3]});
   move_to_world(positions, normals, in.world_from_object, in.reverse_orientation);
   return BilinearMesh(std::move(positions), std::move(patches), std::move(normals),
-                      std::move(uvs),
-                      in.reverse_orientation != in.world_from_object.swaps_handedness());
+                      std::move(uvs), in.flips_normals());
 }
 
 std::optional<Shape> make_ply(const ShapeContext& in) {
@@ -135,7 +139,7 @@ std::optional<Shape> make_sphere(const ShapeContext& in) {
                 std::clamp(std::min(z0, z1), -radius, radius),
                 std::clamp(std::max(z0, z1), -radius, radius),
                 radians(phi_max),
-                in.reverse_orientation};
+                in.flips_normals()};
 }
 
 std::optional<Shape> make_disk(const ShapeContext& in) {
@@ -145,7 +149,7 @@ std::optional<Shape> make_disk(const ShapeContext& in) {
   const float inner_radius = p.number("innerradius", 0, {0, radius});
   const float phi_max = p.number("phimax", 360, full_turn);
   return Disk{in.world_from_object, height,           radius,
-              inner_radius,         radians(phi_max), in.reverse_orientation};
+              inner_radius,         radians(phi_max), in.flips_normals()};
 }
 
 std::optional<Shape> not_yet(const ShapeContext& in) {
