@@ -59,6 +59,7 @@ Counts count(const SceneDescription& scene) {
         counts.triangles += mesh->triangles().size();
       counts.area_lights += surface.emission ? 1 : 0;
     }
+  counts.area_lights += scene.hidden_emitters.size();
   return counts;
 }
 

@@ -93,9 +93,15 @@ TEST(LoadShapeTest, InvisibleShapesAreLeftOut) {
   EXPECT_TRUE(parse_world("Shape \"sphere\" \"float alpha\" 0").scene.surfaces.empty());
   EXPECT_EQ(parse_world("Shape \"sphere\" \"float alpha\" 1").scene.surfaces.size(), 1u);
   // The light of an invisible lamp is not lost.
-  EXPECT_EQ(parse_world("AreaLightSource \"diffuse\" Shape \"sphere\" \"float alpha\" 0")
-                .scene.surfaces.size(),
-            1u);
+  const LoadedScene lamp = parse_world(
+      "AreaLightSource \"diffuse\" \"rgb L\" [1 2 3] \"bool twosided\" true "
+      "Translate 0 0 5 Shape \"sphere\" \"float alpha\" 0");
+  EXPECT_TRUE(lamp.scene.surfaces.empty());
+  ASSERT_EQ(lamp.scene.hidden_emitters.size(), 1u);
+  const HiddenEmitter& hidden = lamp.scene.hidden_emitters[0];
+  EXPECT_EQ(hidden.emission.L, (Rgb{1, 2, 3}));
+  EXPECT_TRUE(hidden.emission.two_sided);
+  EXPECT_EQ(bounds(hidden.shape).center(), (Vec3{0, 0, 5}));
 }
 
 TEST(LoadAreaLightTest, EmitsItsRadiance) {

@@ -76,6 +76,12 @@ std::optional<LightSample> draw(const AreaLight& light, Vec3 p, Vec2 u) {
   return if_it_shines({wi, distance, light.Le(s->point, -wi), s->pdf, false});
 }
 
+std::optional<LightSample> draw(const HiddenAreaLight& light, Vec3 p, Vec2 u) {
+  std::optional<LightSample> s = draw(light.area, p, u);
+  if (s) s->is_delta = true;
+  return s;
+}
+
 std::optional<LightSample> draw(const VolumeLight& light, Vec3 p, Vec2 u) {
   const std::optional<VolumeLight::Direction> s = light.sample(p, u);
   if (!s) return std::nullopt;
@@ -125,6 +131,16 @@ Rgb power_of(const AreaLight& light, float) {
   return light.L * (pi * (light.two_sided ? 2.0f : 1.0f) * area(*light.shape));
 }
 
+Rgb power_of(const HiddenAreaLight& light, float radius) {
+  return power_of(light.area, radius);
+}
+
+// Of visible and of hidden ones; null for other lights.
+const AreaLight* area_light(const LightVariant& light) {
+  if (const auto* hidden = std::get_if<HiddenAreaLight>(&light)) return &hidden->area;
+  return std::get_if<AreaLight>(&light);
+}
+
 }  // namespace
 
 Rgb SpotLight::intensity(Vec3 w) const {
@@ -166,7 +182,7 @@ std::optional<LightPoint> Light::sample_point(Vec2 u) const {
     point.on.p = light->sample_point(u);
     return point;
   }
-  const auto* light = std::get_if<AreaLight>(&light_);
+  const AreaLight* light = area_light(light_);
   if (!light) return std::nullopt;
   const ShapeSample s = sample_area(*light->shape, u);
   if (!(s.pdf_area > 0) || !std::isfinite(s.pdf_area)) return std::nullopt;
@@ -176,7 +192,7 @@ std::optional<LightPoint> Light::sample_point(Vec2 u) const {
 Rgb Light::emission(const SurfacePoint& on, Vec3 w) const {
   if (const auto* light = std::get_if<PointLight>(&light_)) return light->I;
   if (const auto* light = std::get_if<SpotLight>(&light_)) return light->intensity(w);
-  if (const auto* light = std::get_if<AreaLight>(&light_)) return light->Le(on, w);
+  if (const AreaLight* light = area_light(light_)) return light->Le(on, w);
   return {};
 }
 
@@ -185,7 +201,7 @@ std::optional<LightExtent> Light::extent() const {
     return LightExtent{{light->p, light->p}, {0, 0, 1}, -1};
   if (const auto* light = std::get_if<SpotLight>(&light_))
     return LightExtent{{light->p, light->p}, light->axis, light->cos_total};
-  if (const auto* light = std::get_if<AreaLight>(&light_))
+  if (const AreaLight* light = area_light(light_))
     return LightExtent{bounds(*light->shape), {0, 0, 1}, -1};
   if (const auto* light = std::get_if<VolumeLight>(&light_))
     return LightExtent{light->bounds(), {0, 0, 1}, -1};

@@ -103,8 +103,15 @@ struct AreaLight {
   }
 };
 
-using LightVariant = std::variant<PointLight, SpotLight, DistantLight, ConstantEnvironment,
-                                  ImageEnvironment, AreaLight, VolumeLight>;
+/// An area light that rays pass through, and so cannot hit by chance: only sampling finds
+/// it.
+struct HiddenAreaLight {
+  AreaLight area;
+};
+
+using LightVariant =
+    std::variant<PointLight, SpotLight, DistantLight, ConstantEnvironment, ImageEnvironment,
+                 AreaLight, HiddenAreaLight, VolumeLight>;
 
 class Light {
  public:

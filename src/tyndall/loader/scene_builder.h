@@ -109,6 +109,7 @@ class SceneBuilder {
   std::vector<PendingSurface>& target_surfaces();
   void add_surface(const std::string& type, Shape shape, ParameterSet& parameters);
   bool is_invisible(ParameterSet& parameters) const;
+  void add_hidden_emitter(Shape shape);
 
   void check_complete(Span end);
   void check_lights(const SceneDescription& scene, Span end);
@@ -147,6 +148,7 @@ class SceneBuilder {
   bool is_in_object_ = false;
   std::vector<PendingInstance> instances_;
   std::vector<Light> lights_;
+  std::vector<HiddenEmitter> hidden_emitters_;
   std::map<std::pair<uint32_t, uint32_t>, Failure> missing_;  // names, by their places
 };
 

@@ -83,7 +83,7 @@ void SceneBuilder::check_complete(Span end) {
 
 void SceneBuilder::check_lights(const SceneDescription& scene, Span end) {
   const bool has_light =
-      !scene.lights.empty() ||
+      !scene.lights.empty() || !scene.hidden_emitters.empty() ||
       std::any_of(scene.surfaces.begin(), scene.surfaces.end(),
                   [](const Surface& s) { return s.emission.has_value(); }) ||
       std::any_of(scene.media.begin(), scene.media.end(),
@@ -103,6 +103,7 @@ LoadedScene SceneBuilder::finish(Span end) {
   scene.instances = resolved_instances();
   scene.media = std::move(media_);
   scene.lights = std::move(lights_);
+  scene.hidden_emitters = std::move(hidden_emitters_);
   report_missing();
   reporter_.throw_if_errors();
   if (!camera_) reporter_.error(world_begin_, "the scene has no Camera before WorldBegin");

@@ -59,7 +59,7 @@ void SceneBuilder::area_light_source(const std::string& type, ParameterSet param
   parameters.report_unknown();
 }
 
-// pbrt-v4 lets rays through where alpha is zero.
+// pbrt-v4 lets rays through where alpha is zero. A light of such a shape still shines.
 bool SceneBuilder::is_invisible(ParameterSet& parameters) const {
   const Parameter* alpha =
       parameters.find("alpha", {ParameterType::number, ParameterType::texture});
@@ -73,10 +73,7 @@ bool SceneBuilder::is_invisible(ParameterSet& parameters) const {
   if (value != 0 && value != 1)
     parameters.unsupported(
         "alpha", "alpha between 0 and 1 is not supported yet; the shape is opaque");
-  if (value == 0 && state_.area_light)
-    parameters.unsupported(
-        "alpha", "a light that cannot be seen is not supported yet; the shape is opaque");
-  return value == 0 && !state_.area_light;
+  return value == 0;
 }
 
 std::vector<SceneBuilder::PendingSurface>& SceneBuilder::target_surfaces() {
@@ -88,7 +85,17 @@ void SceneBuilder::shape(const std::string& type, ParameterSet parameters) {
       make_shape(type, parameters, state_.ctm, state_.reverse_orientation, files_);
   const bool is_hidden = is_invisible(parameters);
   parameters.report_unknown();
-  if (shape && !is_hidden) add_surface(type, std::move(*shape), parameters);
+  if (!shape) return;
+  if (is_hidden)
+    add_hidden_emitter(std::move(*shape));
+  else
+    add_surface(type, std::move(*shape), parameters);
+}
+
+void SceneBuilder::add_hidden_emitter(Shape shape) {
+  if (is_in_object_ || !state_.area_light) return;
+  for (auto& [part, emission] : with_emission(std::move(shape), state_.area_light))
+    hidden_emitters_.push_back({std::move(part), emission.value()});
 }
 
 void SceneBuilder::add_surface(const std::string& type, Shape shape,

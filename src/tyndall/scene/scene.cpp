@@ -154,6 +154,11 @@ class Scene::Impl {
                                     .L = surface.emission->L,
                                     .two_sided = surface.emission->two_sided});
     }
+    for (const HiddenEmitter& hidden : description.hidden_emitters)
+      if (!is_black(hidden.emission.L))
+        lights.emplace_back(HiddenAreaLight{{.shape = &hidden.shape,
+                                             .L = hidden.emission.L,
+                                             .two_sided = hidden.emission.two_sided}});
     for (const std::vector<Surface>& object : description.objects)
       for (const Surface& surface : object)
         if (surface.emission)

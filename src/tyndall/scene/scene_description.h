@@ -39,6 +39,12 @@ struct Surface {
   std::string name;  ///< for messages: "trianglemesh at scene.pbrt:12:1"
 };
 
+/// A light in the shape of a surface that no ray ever meets.
+struct HiddenEmitter {
+  Shape shape;
+  AreaEmission emission;
+};
+
 /// Surfaces that appear as often as instances name them.
 struct ObjectInstance {
   size_t object;  ///< index into SceneDescription::objects
@@ -54,6 +60,7 @@ struct SceneDescription {
   std::vector<std::vector<Surface>> objects;
   std::vector<ObjectInstance> instances;
   std::vector<Light> lights;  ///< without area lights: those come from surfaces' emission
+  std::vector<HiddenEmitter> hidden_emitters;
 };
 
 }  // namespace tyndall
