@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "parse.h"
+#include "tyndall/math/constants.h"
 #include "tyndall/media/blackbody.h"
 
 namespace tyndall {
@@ -49,6 +52,48 @@ TEST(LoadHomogeneousTest, ReadsThePhaseFunction) {
   EXPECT_EQ(
       medium_of("\"string type\" \"homogeneous\" \"float g\" -.7").phase().mean_cosine(),
       -0.7f);
+}
+
+// p(wo, wi) times 4 pi, for a deflection of the given cosine.
+float relative_phase(const std::string& parameters, float cosine) {
+  const Medium medium = medium_of("\"string type\" \"homogeneous\" " + parameters);
+  const Vec3 wi{0, std::sqrt(1 - cosine * cosine), cosine};
+  return medium.phase().eval({0, 0, -1}, wi) * 4 * pi;
+}
+
+double hg(double g, double cosine) {
+  return (1 - g * g) / std::pow(1 + g * g - 2 * g * cosine, 1.5);
+}
+
+void expect_phase(const std::string& parameters, float cosine, double expected) {
+  EXPECT_NEAR(double{relative_phase(parameters, cosine)}, expected, 1e-5 * expected)
+      << parameters << " at " << cosine;
+}
+
+TEST(LoadPhaseTest, KnowsFourPhaseFunctions) {
+  for (const float c : {-1.0f, -0.25f, 0.0f, 0.75f, 1.0f}) {
+    const double cosine = double{c};
+    expect_phase("", c, 1);
+    expect_phase("\"string phase\" \"hg\" \"float g\" .5", c, hg(0.5, cosine));
+    expect_phase(
+        "\"string phase\" \"two-lobe-hg\" \"float g\" .75 \"float g2\" -.5 "
+        "\"float share\" .25",
+        c, 0.25 * hg(0.75, cosine) + 0.75 * hg(-0.5, cosine));
+    expect_phase("\"string phase\" \"rayleigh\"", c, 0.75 * (1 + cosine * cosine));
+    // Twice as much straight on as straight back, linear in between.
+    expect_phase("\"string phase\" \"tabulated\" \"float values\" [2 4]", c,
+                 (3 + cosine) / 3);
+  }
+}
+
+TEST(LoadPhaseTest, IsReadByGridsToo) {
+  for (const std::string type : {"\"homogeneous\"", "\"uniformgrid\" \"float density\" 1",
+                                 "\"rgbgrid\" \"rgb sigma_s\" [1 2 3]"}) {
+    const Medium medium =
+        medium_of("\"string type\" " + type +
+                  " \"string phase\" \"tabulated\" \"float values\" [0 1]");
+    EXPECT_FLOAT_EQ(medium.phase().mean_cosine(), 1 / 3.0f) << type;
+  }
 }
 
 TEST(LoadUniformGridTest, DensityScalesUnitCoefficients) {

@@ -44,12 +44,6 @@ MediumProperties read_properties(const MediumContext& in, const MediumPreset& ot
   return {Rgb{}, Rgb{}, Le};
 }
 
-PhaseFunction read_phase_function(ParameterSet& parameters) {
-  const float g = parameters.number("g", 0, {-1, 1, true});
-  if (g == 0) return IsotropicPhase{};
-  return HenyeyGreenstein{g};
-}
-
 Vec3i read_resolution(ParameterSet& parameters) {
   constexpr Range side{1, 1 << 16};
   return {parameters.integer("nx", 1, side), parameters.integer("ny", 1, side),

@@ -28,7 +28,7 @@ inline constexpr MediumPreset unit_coefficients{"", {1, 1, 1}, {1, 1, 1}};
 /// neither one by one nor by a preset.
 MediumProperties read_properties(const MediumContext& in, const MediumPreset& otherwise);
 
-/// g
+/// phase, and the parameters of the phase function that it names; "hg" with its g if none.
 PhaseFunction read_phase_function(ParameterSet& parameters);
 
 /// nx, ny, nz
