@@ -41,13 +41,10 @@ class Leg {
   const Medium* medium_;           // at the start, then at the end
 };
 
-/// Unbiased estimate of the transmittance of one medium. Never negative, as radiance must
-/// not be: ray marching has the least variance, but a negative sample every few thousand
-/// paths.
+/// Unbiased estimate of the transmittance of one medium, never negative.
 inline Rgb estimate_span(const Medium& medium, const Ray& ray, float t_max,
                          RandomStream& rng) {
-  return estimate_transmittance(medium, ray, t_max, rng,
-                                TransmittanceMethod::ratio_tracking);
+  return estimate_transmittance(medium, ray, t_max, rng);
 }
 
 /// Unbiased estimate of the radiance that the media along a leg emit towards its start.

@@ -13,12 +13,13 @@ namespace tyndall {
 enum class TransmittanceMethod {
   ratio_tracking,           ///< in [0, 1] [NSJ14]
   residual_ratio_tracking,  ///< never negative [NSJ14]
-  ray_marching,             ///< lowest variance, but sometimes below 0 or above 1 [KdPN21]
+  ray_marching,             ///< sometimes below 0 or above 1 [KdPN21]
 };
 
-/// The least variance x time; measured by bench/media_bench.cpp.
+/// The least variance x time of pixels (docs/performance.md), and never negative, as radiance
+/// must not be.
 inline constexpr TransmittanceMethod default_transmittance_method =
-    TransmittanceMethod::ray_marching;
+    TransmittanceMethod::ratio_tracking;
 
 /// An unbiased estimate of the transmittance of `medium` along the ray up to t_max, which
 /// may be infinite. Exact in homogeneous media.
