@@ -113,5 +113,30 @@ TEST(SphereCone, DirectionsHaveTheMomentsOfACone) {
   }
 }
 
+// From inside, all directions are alike, however near the wall is.
+TEST(SphereInside, DirectionsAreUniform) {
+  const double level = sidak(0.01, 3 * 4);
+  for (const float off_center : {0.0f, 0.5f, 0.99f}) {
+    RandomStream random(4);
+    const Vec3 from = random_direction(random) * (2 * off_center);
+    Sphere s = sphere_at({0, 0, 0}, 2);
+    s.flip_normals = true;
+    RunningMoments squared, mean[3];
+    for (int i = 0; i < 100'000; ++i) {
+      const auto sample = s.sample_direction(from, random.next_2d());
+      ASSERT_TRUE(sample);
+      ASSERT_FLOAT_EQ(sample->pdf, 1 / (4 * pi));
+      ASSERT_EQ(s.direction_pdf(from, sample->point), sample->pdf);
+      ASSERT_NEAR(length(sample->point.p), 2, 1e-5f);
+      ASSERT_NEAR(dot(sample->point.ng, sample->point.p), -2, 1e-5f);
+      const Vec3 w = normalize(sample->point.p - from);
+      for (int axis = 0; axis < 3; ++axis) mean[axis].add(static_cast<double>(w[axis]));
+      squared.add(static_cast<double>(w.x * w.x));
+    }
+    for (const RunningMoments& m : mean) EXPECT_GT(z_p_value(m, 0), level) << off_center;
+    EXPECT_GT(z_p_value(squared, 1 / 3.0), level) << off_center;
+  }
+}
+
 }  // namespace
 }  // namespace tyndall

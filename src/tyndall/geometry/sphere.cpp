@@ -7,6 +7,7 @@
 
 #include "tyndall/geometry/azimuth.h"
 #include "tyndall/geometry/sample_by_area.h"
+#include "tyndall/math/constants.h"
 
 namespace tyndall {
 namespace {
@@ -85,6 +86,31 @@ Vec3d near_side_normal(const Cone& cone, Vec2 u) {
   const double phi = full_turn * static_cast<double>(u.y);
   const auto [b, c] = perpendicular(cone.axis);
   return b * (across * std::cos(phi)) + c * (across * std::sin(phi)) - cone.axis * along;
+}
+
+// A whole sphere as seen from inside.
+struct Shell {
+  Vec3d viewer;   // from the center
+  double radius;  // in world space
+};
+
+std::optional<Shell> shell_from_inside(const Sphere& s, const Affine& world, Vec3 from) {
+  if (!s.is_full() || !keeps_spheres(world)) return std::nullopt;
+  const Vec3d viewer = Vec3d(from) - world.column(3);
+  const double r = static_cast<double>(s.radius) * length(world.column(0));
+  // Closer to the surface than this, rounding decides which side it is.
+  if (!(length(viewer) < r * (1 - 1e-6)) || !std::isfinite(r)) return std::nullopt;
+  return Shell{viewer, r};
+}
+
+// The sphere's normal where a direction uniform about the viewer meets it.
+Vec3d far_side_normal(const Shell& shell, Vec2 u) {
+  const Vec3d w =
+      direction(1 - 2 * static_cast<double>(u.x), full_turn * static_cast<double>(u.y));
+  const double b = dot(shell.viewer, w);
+  const double c = dot(shell.viewer, shell.viewer) - shell.radius * shell.radius;
+  const double t = std::sqrt(b * b - c) - b;
+  return (shell.viewer + w * t) * (1 / shell.radius);
 }
 
 float cone_pdf(const Cone& cone) {
@@ -197,24 +223,30 @@ float Sphere::pdf_area(const SurfacePoint& on) const {
 
 std::optional<ShapeDirectionSample> Sphere::sample_direction(Vec3 from, Vec2 u) const {
   const Affine world(world_from_sphere);
-  const std::optional<Cone> cone = cone_from_outside(*this, world, from);
-  if (!cone) return sample_direction_by_area(*this, from, u);
-  const float pdf = cone_pdf(*cone);
-  if (!(pdf > 0)) return std::nullopt;
-  const Vec3d normal = near_side_normal(*cone, u);
-  const Vec3d n = normalize_or_z(world.transposed(normal));
-  const Vec3 ng = to_float(flip_normals ? -normal : normal);
-  return ShapeDirectionSample{
-      .point = {.p = to_float(world.point(n * static_cast<double>(radius))),
-                .ng = ng,
-                .ns = ng,
-                .uv = {}},
-      .pdf = pdf};
+  const auto towards = [&](Vec3d normal, float pdf) {
+    const Vec3d n = normalize_or_z(world.transposed(normal));
+    const Vec3 ng = to_float(flip_normals ? -normal : normal);
+    return ShapeDirectionSample{
+        .point = {.p = to_float(world.point(n * static_cast<double>(radius))),
+                  .ng = ng,
+                  .ns = ng,
+                  .uv = {}},
+        .pdf = pdf};
+  };
+  if (const std::optional<Cone> cone = cone_from_outside(*this, world, from)) {
+    const float pdf = cone_pdf(*cone);
+    if (!(pdf > 0)) return std::nullopt;
+    return towards(near_side_normal(*cone, u), pdf);
+  }
+  if (const std::optional<Shell> shell = shell_from_inside(*this, world, from))
+    return towards(far_side_normal(*shell, u), inv_4pi);
+  return sample_direction_by_area(*this, from, u);
 }
 
 float Sphere::direction_pdf(Vec3 from, const SurfacePoint& on) const {
-  const std::optional<Cone> cone =
-      cone_from_outside(*this, Affine(world_from_sphere), from);
+  const Affine world(world_from_sphere);
+  if (shell_from_inside(*this, world, from)) return inv_4pi;
+  const std::optional<Cone> cone = cone_from_outside(*this, world, from);
   if (!cone) return direction_pdf_by_area(*this, from, on);
   // The far side is never sampled. The tolerance spares points of the rim from being taken
   // for it, which are on either side of it by rounding.

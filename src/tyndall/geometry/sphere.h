@@ -34,7 +34,8 @@ struct Sphere {
   ShapeSample sample(Vec2 u) const;
   float pdf_area(const SurfacePoint& on) const;
 
-  /// Uniform in the cone that a whole sphere fills, if seen from outside, else by area.
+  /// Of a whole sphere, uniform in all directions if seen from inside, and uniform in the
+  /// cone that it fills if seen from outside; else by area.
   /// Empty if nothing can be seen.
   std::optional<ShapeDirectionSample> sample_direction(Vec3 from, Vec2 u) const;
   float direction_pdf(Vec3 from, const SurfacePoint& on) const;
