@@ -41,9 +41,9 @@ Medium constant_rgbgrid(const Transform& world_from_medium) {
     return RgbGrid{{n, n, n}, std::vector<Rgb>(n * n * n, Rgb(value))};
   };
   // The outermost half cells fade to zero.
-  return Medium(RgbGridMedium({.sigma_a = grid(sigma_a), .sigma_s = grid(sigma_s)},
-                              {{-5, -5, -5}, {5, 5, 5}}, world_from_medium, 1, 1,
-                              HenyeyGreenstein(g)));
+  return Medium(RgbGridMedium(
+      {.sigma_a = grid(sigma_a), .sigma_s = grid(sigma_s), .Le = {}},
+      {{-5, -5, -5}, {5, 5, 5}}, world_from_medium, 1, 1, HenyeyGreenstein(g)));
 }
 
 struct Description {
