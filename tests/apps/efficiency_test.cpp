@@ -121,7 +121,9 @@ std::vector<Run> rendered_runs(size_t count) {
   const auto image = [&](uint64_t seed, uint32_t samples) {
     settings.seed = seed;
     settings.samples_per_pixel = samples;
-    return render(scene, settings, {.threads = 1}).film.develop();
+    RenderOptions options;
+    options.threads = 1;
+    return render(scene, settings, options).film.develop();
   };
   const Image reference = image(1'000'000, 4096);
   std::vector<Run> runs(count);

@@ -282,6 +282,12 @@ class SceneErrorTest(ProgramTest):
         self.assertIn("nothing.pbrt", result.stderr)
         self.assertIn("No such file or directory", result.stderr)
 
+    def test_no_text(self):
+        self.render("-o", "picture.exr")
+        result = self.run_program("render", "picture.exr", "-o", "a.exr")
+        self.assertEqual((result.returncode, result.stderr),
+                         (2, 'error: cannot read "picture.exr": it is not a text file\n'))
+
     def test_a_folder(self):
         result = self.run_program("render", ".", "-o", "a.exr")
         self.assertEqual(result.returncode, 2)
@@ -402,6 +408,15 @@ class StoppingTest(ProgramTest):
         self.assertIs(statistics["stopped_early"], True)
         self.assertLess(statistics["seconds"], 5)
         self.assertEqual(statistics["samples_per_pixel_wanted"], 100000000)
+
+    def test_pass_beyond_the_time_limit_is_not_told_to_be_done(self):
+        result = self.run_program("render", "fog.pbrt", "-o", "a.exr", "--size", "600x600", "--time",
+                                  "0.01s", "--progress", "farm")
+        self.assertEqual(result.returncode, 4, result.stderr)
+        told = [line for line in result.stderr.splitlines() if line.startswith("ALF_PROGRESS")]
+        self.assertGreater(len(told), 1)
+        self.assertEqual(set(told[:-1]), {"ALF_PROGRESS 99%"})
+        self.assertEqual(told[-1], "ALF_PROGRESS 100%")
 
     def test_time_limit_that_is_not_reached(self):
         self.render("--time", "1h")

@@ -183,12 +183,13 @@ class RenderJob {
     report_progress(pass.first + of_pass * pass.count, pass.first);
   }
 
-  // `samples` count the begun ones too.
+  // `samples` count the begun ones too. A pass may go on beyond the time limit: what is not
+  // finished is never told to be.
   void report_progress(double samples, uint32_t finished) {
     const double now = last_progress_ = clock_.seconds();
     double fraction = samples / settings_.samples_per_pixel;
     if (options_.time_limit) fraction = std::max(fraction, now / *options_.time_limit);
-    fraction = std::min(fraction, 1.0);
+    fraction = std::min(fraction, samples > finished ? 0.99 : 1.0);
     const bool is_known = fraction > 0 && !statistics_.stopped_early;
     options_.on_progress({.fraction = fraction,
                           .seconds = now,

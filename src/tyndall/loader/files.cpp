@@ -69,4 +69,10 @@ std::string read_bytes(const std::string& path) {
   return bytes;
 }
 
+std::string read_text(const std::string& path) {
+  std::string text = read_bytes(path);
+  if (text.find('\0') != text.npos) throw std::runtime_error("it is not a text file");
+  return text;
+}
+
 }  // namespace tyndall::loader

@@ -31,4 +31,7 @@ inline constexpr size_t max_file_size = size_t{2} << 30;
 /// with the system's or zlib's words, without the path.
 std::string read_bytes(const std::string& path);
 
+/// The same for a scene file; throws too if it is not a text.
+std::string read_text(const std::string& path);
+
 }  // namespace tyndall::loader

@@ -32,7 +32,7 @@ LoadedScene load_text(std::shared_ptr<const std::string> text, const std::string
 LoadedScene load_scene(const std::string& path, const LoadOptions& options) {
   std::string text;
   try {
-    text = loader::read_bytes(path);
+    text = loader::read_text(path);
   } catch (const std::runtime_error& error) {
     throw std::runtime_error("cannot read \"" + path + "\": " + error.what());
   }

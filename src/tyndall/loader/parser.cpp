@@ -145,7 +145,7 @@ std::shared_ptr<const std::string> Parser::text_of(const std::string& path, Span
   std::shared_ptr<const std::string>& text = texts_[path];
   if (text) return text;
   try {
-    text = std::make_shared<const std::string>(read_bytes(path));
+    text = std::make_shared<const std::string>(read_text(path));
   } catch (const std::runtime_error& error) {
     fail(where, fmt::format("cannot read \"{}\": {}", path, error.what()));
   }
