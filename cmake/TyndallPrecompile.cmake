@@ -22,4 +22,12 @@ endfunction()
 # tyndall_unity(<target>): what files of one target put in anonymous namespaces must have different names.
 function(tyndall_unity target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${TYNDALL_UNITY} UNITY_BUILD_BATCH_SIZE 8)
+  if(TYNDALL_UNITY)
+    # gcc 12 takes all files but the first for headers, and with more to inline it believes more short
+    # strings and small vectors of Boost's to be too long for themselves.
+    target_compile_options(
+      ${target}
+      PRIVATE "$<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage;-Wno-array-bounds;-Wno-stringop-overflow;-Wno-stringop-overread>"
+    )
+  endif()
 endfunction()

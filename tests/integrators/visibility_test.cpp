@@ -37,7 +37,8 @@ ConnectionSettings with_maps(std::shared_ptr<const LightVisibility> maps) {
 // A map of light 0 whose distances are made from the right ones.
 std::shared_ptr<const LightVisibility> changed_map(const Scene& scene,
                                                    float (*change)(float)) {
-  const VisibilityMap& right = *LightVisibility(scene).maps().at(0);
+  const LightVisibility visibility(scene);
+  const VisibilityMap& right = *visibility.maps().at(0);
   VisibilityMapSettings settings;
   settings.resolution = right.rows();
   settings.floor = right.floor();

@@ -23,19 +23,20 @@ class TreeCheck {
   using Tree = typename nanovdb::NanoGrid<Build>::TreeType;
   using Root = typename Tree::RootType;
   using Leaf = typename Tree::LeafNodeType;
+  using Upper = typename Root::ChildNodeType;
 
  public:
   TreeCheck(const std::byte* begin, size_t size) : begin_(begin), size_(size) {}
 
   bool is_sound(const nanovdb::NanoGrid<Build>& grid) const {
-    const Root& root = grid.tree().root();
-    if (!holds(&root, sizeof(Root))) return false;
-    const uint64_t tiles = root.data()->mTableSize;
-    if (tiles > size_ / 8 || !holds(&root, Root::memUsage(root.data()->mTableSize)))
-      return false;
+    const auto* tree = grid.tree().data();
+    const Root* root = behind<Root>(tree, tree->mNodeOffset[3]);
+    if (!root) return false;
+    const uint32_t tiles = root->data()->mTableSize;
+    if (tiles > size_ / 8 || !holds(root, Root::memUsage(tiles))) return false;
     for (uint32_t i = 0; i < tiles; ++i) {
-      const auto* tile = root.data()->tile(i);
-      if (tile->isChild() && !is_sound(*root.data()->getChild(tile))) return false;
+      const auto* tile = root->data()->tile(i);
+      if (tile->isChild() && !is_sound(behind<Upper>(root, tile->child))) return false;
     }
     return true;
   }
@@ -48,14 +49,28 @@ class TreeCheck {
            (at - begin) % NANOVDB_DATA_ALIGNMENT == 0;
   }
 
+  // The node that lies `offset` bytes behind another, before it if negative; null if the
+  // image does not hold it. There are no pointers to outside: even to make one is
+  // undefined.
+  template <typename Node, typename Offset>
+  const Node* behind(const void* from, Offset offset) const {
+    const uintptr_t at = reinterpret_cast<uintptr_t>(from) -
+                         reinterpret_cast<uintptr_t>(begin_) +
+                         static_cast<uintptr_t>(offset);
+    if (at > size_ || sizeof(Node) > size_ - at || at % NANOVDB_DATA_ALIGNMENT != 0)
+      return nullptr;
+    return reinterpret_cast<const Node*>(begin_ + at);
+  }
+
   template <typename Node>
-  bool is_sound(const Node& node) const {
-    if (!holds(&node, sizeof(Node))) return false;
+  bool is_sound(const Node* node) const {
+    if (!node) return false;
     if constexpr (std::is_same_v<Node, Leaf>) {
-      return holds(&node, node.data()->memUsage());
+      return holds(node, node->data()->memUsage());
     } else {
-      for (auto i = node.data()->mChildMask.beginOn(); i; ++i)
-        if (!is_sound(*node.data()->getChild(*i))) return false;
+      using Child = typename Node::ChildNodeType;
+      for (auto i = node->data()->mChildMask.beginOn(); i; ++i)
+        if (!is_sound(behind<Child>(node, node->data()->mTable[*i].child))) return false;
       return true;
     }
   }
@@ -95,9 +110,9 @@ class GridImage {
     if (is_stream && header.template isSequential<Leaf>() &&
         header.tree().nodeCount(0) > 0) {
       leaf_count_ = header.tree().nodeCount(0);
-      directory_size_ = static_cast<size_t>(
-          reinterpret_cast<const std::byte*>(header.tree().template getFirstNode<Leaf>()) -
-          memory_.data());
+      const auto* tree = reinterpret_cast<const std::byte*>(&header.tree());
+      directory_size_ =
+          static_cast<size_t>(tree - memory_.data()) + header.tree().data()->mNodeOffset[0];
       if (directory_size_ < header_size || directory_size_ > memory_.size() ||
           (memory_.size() - directory_size_) / sizeof(Leaf) < leaf_count_)
         throw std::runtime_error("a grid is damaged");
