@@ -30,7 +30,7 @@ LAYERS = {
 # Library: (pattern of its headers, folders that may include it, most .cpp files that do).
 LIBRARIES = {
     "Embree": (r"embree\d*/", {"geometry"}, 1),
-    "oneTBB": (r"(one)?api/tbb|tbb/", {"geometry", "media", "image", "scene", "guiding", "integrators"}, 9),
+    "oneTBB": (r"(one)?api/tbb|tbb/", {"math", "image", "integrators"}, 4),
     "OpenEXR": (r"Imf|Iex|Imath|OpenEXR/|half\.h", {"image"}, 2),
     "libpng": (r"png\.h", {"image"}, 1),
     "zlib": (r"zlib\.h", {"loader", "image", "media"}, 2),

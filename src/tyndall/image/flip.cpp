@@ -3,7 +3,6 @@
 // those of the first.
 #include "tyndall/image/flip.h"
 
-#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -14,6 +13,7 @@
 #include "tyndall/image/flip_color.h"
 #include "tyndall/image/flip_filter.h"
 #include "tyndall/image/tone.h"
+#include "tyndall/math/parallel_for.h"
 
 namespace tyndall {
 namespace {
@@ -177,7 +177,7 @@ std::vector<std::vector<float>> hdr_flip(const std::vector<const Image*>& images
   };
   // Each exposure holds some twenty planes: a few at a time.
   tbb::task_arena arena(std::min(4, tbb::this_task_arena::max_concurrency()));
-  arena.execute([&] { tbb::parallel_for(0, range.count, look); });
+  arena.execute([&] { parallel_for(static_cast<size_t>(range.count), look); });
   return largest;
 }
 

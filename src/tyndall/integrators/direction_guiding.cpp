@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tyndall/integrators/direction_guiding.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 
 #include "tyndall/guiding/light_clusters.h"
 #include "tyndall/integrators/integrator.h"
+#include "tyndall/math/parallel_for.h"
 #include "tyndall/scene/scene.h"
 
 namespace tyndall {
@@ -46,10 +45,6 @@ RecordCacheSettings cache_settings(size_t memory) {
   settings.memory = memory - memory / log_part;
   settings.split_samples = 500;
   return settings;
-}
-
-void parallel_for(size_t n, const std::function<void(size_t)>& body) {
-  tbb::parallel_for(size_t{0}, n, body);
 }
 
 }  // namespace

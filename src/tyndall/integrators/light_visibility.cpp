@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tyndall/integrators/light_visibility.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -10,6 +8,7 @@
 
 #include "tyndall/integrators/light_aim.h"
 #include "tyndall/integrators/pilot_points.h"
+#include "tyndall/math/parallel_for.h"
 
 namespace tyndall {
 namespace {
@@ -23,22 +22,27 @@ int resolution_for(double texels) {
   return static_cast<int>(std::bit_floor(std::clamp(side, min_resolution, max_resolution)));
 }
 
+template <typename Body>
+void for_rows(int count, const Body& body) {
+  parallel_for(static_cast<size_t>(count),
+               [&](size_t row) { body(static_cast<int>(row)); });
+}
+
 std::shared_ptr<const VisibilityMap> trace_map(const LightAim& aim,
                                                VisibilityMapSettings settings) {
   settings.lit_outside = aim.is_lit_outside();
   settings.edge_depth = aim.edge_depth();
   auto map = std::make_shared<VisibilityMap>(aim.view(), settings);
   const auto trace = [&](const Ray& ray, Vec2 u) { return aim.reach(ray, u); };
-  tbb::parallel_for(0, map->sketch_rows(), [&](int row) { map->sketch_row(row, trace); });
-  tbb::parallel_for(0, map->rows(),
-                    [&](int row) { map->refine_rows(row, row + 1, trace); });
+  for_rows(map->sketch_rows(), [&](int row) { map->sketch_row(row, trace); });
+  for_rows(map->rows(), [&](int row) { map->refine_rows(row, row + 1, trace); });
   map->finish();
   return map;
 }
 
 OpticalDepthMap trace_depths(const LightAim& aim) {
   OpticalDepthMap map(aim.view(), aim.range(), depth_resolution, depth_steps);
-  tbb::parallel_for(0, map.rows(), [&](int row) {
+  for_rows(map.rows(), [&](int row) {
     map.trace_rows(row, row + 1,
                    [&](const Ray& ray, std::span<const float> t, std::span<float> out) {
                      aim.optical_depth(ray, t, out);

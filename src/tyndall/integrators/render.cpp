@@ -2,9 +2,7 @@
 #include "tyndall/integrators/render.h"
 
 #include <sys/resource.h>
-#include <tbb/blocked_range2d.h>
 #include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -13,6 +11,7 @@
 #include <stdexcept>
 
 #include "tyndall/integrators/integrator.h"
+#include "tyndall/math/parallel_for.h"
 
 namespace tyndall {
 namespace {
@@ -144,20 +143,25 @@ class RenderJob {
   void render_pass(Pass pass) {
     const double start = clock_.seconds();
     finished_pixels_ = 0;
-    tbb::parallel_for(
-        tbb::blocked_range2d<int>(settings_.crop_min.y, settings_.crop_max.y, tile_size,
-                                  settings_.crop_min.x, settings_.crop_max.x, tile_size),
-        [&](const tbb::blocked_range2d<int>& tile) { render_tile(tile, pass); },
-        tbb::simple_partitioner());
+    const Vec2i size = settings_.crop_max - settings_.crop_min;
+    const int columns = (size.x + tile_size - 1) / tile_size,
+              rows = (size.y + tile_size - 1) / tile_size;
+    parallel_for(static_cast<size_t>(columns) * static_cast<size_t>(rows), [&](size_t i) {
+      const auto tile = static_cast<int>(i);
+      render_tile({tile % columns, tile / columns}, pass);
+    });
     seconds_per_sample_ = std::max((clock_.seconds() - start) / pass.count, 1e-9);
   }
 
-  void render_tile(const tbb::blocked_range2d<int>& tile, Pass pass) {
-    for (int y = tile.rows().begin(); y < tile.rows().end(); ++y)
-      for (int x = tile.cols().begin(); x < tile.cols().end(); ++x)
+  void render_tile(Vec2i tile, Pass pass) {
+    const Vec2i first = settings_.crop_min + Vec2i{tile.x * tile_size, tile.y * tile_size};
+    const Vec2i last{std::min(first.x + tile_size, settings_.crop_max.x),
+                     std::min(first.y + tile_size, settings_.crop_max.y)};
+    for (int y = first.y; y < last.y; ++y)
+      for (int x = first.x; x < last.x; ++x)
         for (uint32_t i = pass.first; i < pass.first + pass.count; ++i)
           render_sample({x, y}, i);
-    const auto pixels = static_cast<int64_t>(tile.rows().size() * tile.cols().size());
+    const int64_t pixels = int64_t{last.x - first.x} * (last.y - first.y);
     tell_progress(pass, finished_pixels_ += pixels);
   }
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tyndall/media/brick_grid.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -10,6 +8,7 @@
 #include <map>
 #include <utility>
 
+#include "tyndall/math/parallel_for.h"
 #include "tyndall/media/huge_pages.h"
 
 namespace tyndall {
@@ -113,7 +112,7 @@ void BrickGrid::add_slab(int first, int last, const Source& source,
   const size_t ny = static_cast<size_t>(brick_count_.y),
                nz = static_cast<size_t>(brick_count_.z);
   std::vector<Row> rows(nz * ny);
-  tbb::parallel_for(size_t{0}, rows.size(), [&](size_t i) {
+  parallel_for(rows.size(), [&](size_t i) {
     std::array<float, brick_size> samples;
     for (int x = first; x < last; ++x) {
       const Vec3i brick{x, static_cast<int>(i % ny), static_cast<int>(i / ny)};

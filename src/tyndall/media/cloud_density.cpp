@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tyndall/media/cloud_density.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 
+#include "tyndall/math/parallel_for.h"
 #include "tyndall/sampling/random.h"
 
 namespace tyndall {
@@ -98,7 +97,7 @@ PlacedGrid make_cloud(const CloudParameters& parameters, const Bounds3& bounds) 
   const size_t row = static_cast<size_t>(n.x),
                rows = static_cast<size_t>(n.y) * static_cast<size_t>(n.z);
   grid.values.resize(row * rows);
-  tbb::parallel_for(size_t{0}, rows, [&](size_t r) {
+  parallel_for(rows, [&](size_t r) {
     const auto center = [](int i, int of) {
       return (static_cast<float>(i) + 0.5f) / static_cast<float>(of);
     };

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tyndall/media/majorant_grid.h"
 
-#include <tbb/parallel_for.h>
+#include <algorithm>
+
+#include "tyndall/math/parallel_for.h"
 
 namespace tyndall {
 namespace {
@@ -38,9 +40,8 @@ MajorantGrid::MajorantGrid(const BrickGrid& density) {
       cells_[index({x, y, z})] = {range.max * (1 + 1e-6f), range.mean};
     }
   };
-  tbb::parallel_for(size_t{0},
-                    static_cast<size_t>(resolution_.y) * static_cast<size_t>(resolution_.z),
-                    fill_row);
+  parallel_for(static_cast<size_t>(resolution_.y) * static_cast<size_t>(resolution_.z),
+               fill_row);
 }
 
 }  // namespace tyndall

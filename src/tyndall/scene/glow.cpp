@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tyndall/scene/glow.h"
 
-#include <tbb/parallel_for.h>
-
 #include <type_traits>
 #include <vector>
 
+#include "tyndall/math/parallel_for.h"
 #include "tyndall/sampling/random.h"
 
 namespace tyndall {
@@ -46,7 +45,7 @@ std::optional<EmissionDistribution> measure(const Medium& medium,
   const Vec3 size = box.diagonal();
   if (box.is_empty() || !(size.x > 0 && size.y > 0 && size.z > 0)) return std::nullopt;
   std::vector<Rgb> means(EmissionDistribution::cell_count);
-  tbb::parallel_for(size_t{0}, means.size(), [&](size_t i) {
+  parallel_for(means.size(), [&](size_t i) {
     means[i] =
         mean_emission(medium, world_from_grid, cell_box(box, i), RandomStream(hash(i)));
   });
