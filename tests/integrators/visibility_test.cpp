@@ -83,7 +83,7 @@ TEST(PredictedVisibilityTest, AWrongMapIsNoBias) {
   uint64_t seed = 2;
   double right_variance = 0;
   for (const auto& maps : {std::shared_ptr<const LightVisibility>(), dark, inverted}) {
-    const RunningMoments guided = radiance(scene, with_maps(maps), seed++, 40'000);
+    const RunningMoments guided = radiance(scene, with_maps(maps), seed++, 120'000);
     EXPECT_LT(guided.standard_error(), 0.02 * guided.mean());
     EXPECT_GT(welch_p_value(path, guided), 1e-3)
         << seed << ": " << path.mean() << " +- " << path.standard_error() << " vs "
