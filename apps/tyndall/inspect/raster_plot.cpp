@@ -14,7 +14,7 @@ namespace {
 
 constexpr int plot_width = 960, plot_height = 540;
 constexpr int left = 80, right = 20, top = 64, bottom = 52;
-const Rgb white(1), black(0), light_grey(0.8f), dark_grey(0.2f);
+const Rgb black(0), light_grey(0.8f), dark_grey(0.2f);
 
 Image blank(int width, int height) {
   Image image(width, height);
