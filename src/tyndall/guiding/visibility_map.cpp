@@ -34,14 +34,16 @@ std::array<float, 4> quartiles(std::span<float> distances, bool upper) {
   return u < 0 ? out_of_cone : inside;
 }
 
-// The share of the four distances that lie beyond `distance`.
-[[gnu::always_inline]] inline float share_beyond(const std::array<float, 4>& distances,
-                                                 float distance) {
-  const float a = distances[0] > distance ? 0.25f : 0.0f;
-  const float b = distances[1] > distance ? 0.25f : 0.0f;
-  const float c = distances[2] > distance ? 0.25f : 0.0f;
-  const float d = distances[3] > distance ? 0.25f : 0.0f;
-  return (a + b) + (c + d);
+// The median of the distances that are neither zero nor infinite; one if there is none.
+float typical_distance(std::span<const std::array<float, 4>> texels) {
+  std::vector<float> finite;
+  for (const auto& texel : texels)
+    for (const float d : texel)
+      if (d > 0 && d < infinity) finite.push_back(d);
+  if (finite.empty()) return 1;
+  const auto middle = finite.begin() + static_cast<std::ptrdiff_t>(finite.size() / 2);
+  std::nth_element(finite.begin(), middle, finite.end());
+  return *middle;
 }
 
 }  // namespace
@@ -62,9 +64,10 @@ VisibilityMap::VisibilityMap(const LightView& view, const VisibilityMapSettings&
     size += side * side;
   }
   texels_.resize(static_cast<size_t>(size) + 1,
-                 Texel{{infinity, infinity, infinity, infinity}});
+                 Texel{infinity, infinity, infinity, infinity});
   const float outside = settings.lit_outside ? infinity : -1;
-  texels_.back() = Texel{{outside, outside, outside, outside}};
+  texels_.back() = Texel{outside, outside, outside, outside};
+  encode();
 }
 
 VisibilityMap::Texel VisibilityMap::trace_texel(int x, int y, int side,
@@ -83,7 +86,7 @@ VisibilityMap::Texel VisibilityMap::trace_texel(int x, int y, int side,
     const float distance = trace(ray, random.next_2d());
     distances[i] = distance > 0 ? distance : 0;  // NaN too
   }
-  return {quartiles({distances.data(), rays}, (x + y) % 2 == 1)};
+  return quartiles({distances.data(), rays}, (x + y) % 2 == 1);
 }
 
 size_t VisibilityMap::offset_of(int side) const {
@@ -127,8 +130,8 @@ bool VisibilityMap::is_edge(int x, int y) const {
   float least = infinity, most = 0;
   for (int v = std::max(y - 1, 0); v <= std::min(y + 1, side - 1); ++v)
     for (int u = std::max(x - 1, 0); u <= std::min(x + 1, side - 1); ++u) {
-      least = std::min(least, sketch[v * side + u].distance.front());
-      most = std::max(most, sketch[v * side + u].distance.back());
+      least = std::min(least, sketch[v * side + u].front());
+      most = std::max(most, sketch[v * side + u].back());
     }
   return most > least + edge_depth_;
 }
@@ -143,11 +146,19 @@ void VisibilityMap::finish() {
         std::array<float, 16> distances;
         for (uint32_t i = 0; i < 4; ++i) {
           const uint32_t child = fine + (2 * y + i / 2) * 2 * side + 2 * x + i % 2;
-          std::copy_n(texels_[child].distance.begin(), 4, distances.begin() + 4 * i);
+          std::copy_n(texels_[child].begin(), 4, distances.begin() + 4 * i);
         }
-        texels_[coarse + y * side + x].distance = quartiles(distances, (x + y) % 2 == 1);
+        texels_[coarse + y * side + x] = quartiles(distances, (x + y) % 2 == 1);
       }
   }
+  encode();
+}
+
+void VisibilityMap::encode() {
+  codes_ = DistanceCodes(typical_distance(texels_));
+  coded_.resize(texels_.size());
+  std::transform(texels_.begin(), texels_.end(), coded_.begin(),
+                 [&](const Texel& texel) { return codes_.encode(texel); });
 }
 
 float VisibilityMap::visibility(Vec3 p, int level) const {
@@ -155,8 +166,9 @@ float VisibilityMap::visibility(Vec3 p, int level) const {
   const int32_t side = resolution_ >> level;
   const int32_t i = texel_index(q.uv.x, q.uv.y, side,
                                 level_offset_[static_cast<size_t>(level)], out_of_cone());
-  return floor_ +
-         (1 - floor_) * share_beyond(texels_[static_cast<size_t>(i)].distance, q.distance);
+  const float share = DistanceCodes::share_beyond(coded_[static_cast<size_t>(i)],
+                                                  codes_.encode_point(q.distance));
+  return floor_ + (1 - floor_) * share;
 }
 
 void VisibilityMap::visibility(const Ray& ray, std::span<const float> t,
@@ -165,17 +177,20 @@ void VisibilityMap::visibility(const Ray& ray, std::span<const float> t,
   const int32_t side = resolution_ >> level, last = out_of_cone();
   const int32_t offset = level_offset_[static_cast<size_t>(level)];
   const float floor = floor_, rest = 1 - floor_;
-  const Texel* texels = texels_.data();
+  const DistanceCodes::Four* coded = coded_.data();
+  const DistanceCodes codes = codes_;
   ViewBatch batch;
   alignas(32) std::array<int32_t, ViewBatch::capacity> index;
+  alignas(32) std::array<DistanceCodes::Four, ViewBatch::capacity> occluders;
   for (size_t begin = 0; begin < t.size(); begin += ViewBatch::capacity) {
     const size_t n = std::min(ViewBatch::capacity, t.size() - begin);
     view_.project(ray, t.subspan(begin, n), batch);
     for (size_t i = 0; i < n; ++i)
       index[i] = texel_index(batch.u[i], batch.v[i], side, offset, last);
+    for (size_t i = 0; i < n; ++i) occluders[i] = coded[index[i]];
     for (size_t i = 0; i < n; ++i)
-      out[begin + i] =
-          floor + rest * share_beyond(texels[index[i]].distance, batch.distance[i]);
+      out[begin + i] = floor + rest * DistanceCodes::share_beyond(
+                                          occluders[i], codes.encode_point(batch.distance[i]));
   }
 }
 
@@ -189,10 +204,10 @@ void VisibilityMap::write(ByteWriter& out) const {
   view_.write(out);
   out.write(static_cast<uint32_t>(resolution_));
   out.write(floor_);
-  out.write(static_cast<uint32_t>(texels_.back().distance[0] > 0));
+  out.write(static_cast<uint32_t>(texels_.back()[0] > 0));
   const size_t finest = static_cast<size_t>(resolution_) * static_cast<size_t>(resolution_);
   for (size_t i = 0; i < finest; ++i)
-    for (const float d : texels_[i].distance) out.write(d);
+    for (const float d : texels_[i]) out.write(d);
 }
 
 std::optional<VisibilityMap> VisibilityMap::read(ByteReader& in) {
@@ -208,7 +223,7 @@ std::optional<VisibilityMap> VisibilityMap::read(ByteReader& in) {
   settings.resolution = static_cast<int>(resolution);
   VisibilityMap map(view, settings);
   for (size_t i = 0; i < texels; ++i)
-    for (float& d : map.texels_[i].distance) in.read(d);
+    for (float& d : map.texels_[i]) in.read(d);
   map.finish();
   return map;
 }

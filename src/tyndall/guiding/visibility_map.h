@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tyndall/guiding/byte_stream.h"
+#include "tyndall/guiding/distance_codes.h"
 #include "tyndall/guiding/light_view.h"
 
 namespace tyndall {
@@ -35,7 +36,7 @@ class VisibilityMap {
   /// zero where the light does not shine. An area light chooses one of its points by `u`.
   using Trace = std::function<float(const Ray& ray, Vec2 u)>;
 
-  /// Everything visible, until traced. Sizes: 16 bytes a texel, all levels 4/3 of the
+  /// Everything visible, until traced. Sizes: 20 bytes a texel, all levels 4/3 of the
   /// finest.
   VisibilityMap(const LightView& view, const VisibilityMapSettings& settings);
 
@@ -70,11 +71,13 @@ class VisibilityMap {
   /// Of a texel of the finest level: at which distances its rays met an occluder,
   /// ascending; infinity where none did, zero where the light does not shine.
   const std::array<float, 4>& distances(int x, int y) const {
-    return texels_[static_cast<size_t>(y * resolution_ + x)].distance;
+    return texels_[static_cast<size_t>(y * resolution_ + x)];
   }
   float floor() const { return floor_; }
   const LightView& view() const { return view_; }
-  size_t memory() const { return texels_.size() * sizeof(Texel); }  ///< [bytes]
+  size_t memory() const {  ///< [bytes]
+    return texels_.size() * (sizeof(Texel) + sizeof(DistanceCodes::Four));
+  }
 
   /// Appends the view, the resolution, the floor, and four distances a texel of the finest
   /// level.
@@ -83,13 +86,12 @@ class VisibilityMap {
   static std::optional<VisibilityMap> read(ByteReader& in);
 
  private:
-  struct alignas(16) Texel {
-    std::array<float, 4> distance;  // ascending
-  };
+  using Texel = std::array<float, 4>;  // distances, ascending
 
   Texel trace_texel(int x, int y, int side, const Trace& trace) const;
   bool is_edge(int x, int y) const;
   size_t offset_of(int side) const;
+  void encode();
   int32_t out_of_cone() const { return static_cast<int32_t>(texels_.size()) - 1; }
 
   LightView view_;
@@ -99,6 +101,8 @@ class VisibilityMap {
   std::vector<int32_t> level_offset_;
   std::vector<Texel>
       texels_;  // finest level first; the last one stands for "out of the cone"
+  DistanceCodes codes_;
+  std::vector<DistanceCodes::Four> coded_;  // the texels, for look-ups
 };
 
 }  // namespace tyndall
