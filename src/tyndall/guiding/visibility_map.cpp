@@ -189,8 +189,9 @@ void VisibilityMap::visibility(const Ray& ray, std::span<const float> t,
       index[i] = texel_index(batch.u[i], batch.v[i], side, offset, last);
     for (size_t i = 0; i < n; ++i) occluders[i] = coded[index[i]];
     for (size_t i = 0; i < n; ++i)
-      out[begin + i] = floor + rest * DistanceCodes::share_beyond(
-                                          occluders[i], codes.encode_point(batch.distance[i]));
+      out[begin + i] =
+          floor + rest * DistanceCodes::share_beyond(occluders[i],
+                                                     codes.encode_point(batch.distance[i]));
   }
 }
 

@@ -28,6 +28,10 @@ class ConnectionContext {
   const LightChoice& light_choice() const { return light_choice_; }
   /// The tables of a medium's phase function.
   const ScatteringTables& tables(const Medium& medium) const;
+  /// The same for what a surface looks into: from vacuum, the first medium of the scene.
+  const ScatteringTables& tables_around(const Medium* medium) const {
+    return medium ? tables(*medium) : *by_mean_cosine_.begin()->second;
+  }
   /// Null if visibility is not predicted.
   const LightVisibility* visibility() const { return visibility_.get(); }
   /// Null if lit surfaces are not connected to.
@@ -75,10 +79,10 @@ struct LegStart {
   float pdf_direction = 1;  ///< with which the walk turns into the leg [1/sr]
   bool is_specular = true;  ///< the camera, or a Dirac delta: the direction has no density
   bool is_in_medium = false;
-  Vec3 ng;                  ///< of a surface
-  bool can_be_lit = false;  ///< a surface that LitSurfaceSampling finds
-  /// Of a surface from which glow is connected to; else null.
-  const Medium* glowing_medium = nullptr;
+  Vec3 ng;                         ///< of a surface
+  bool can_be_lit = false;         ///< a surface that LitSurfaceSampling finds
+  bool sees_glow = false;          ///< a surface from which glow is connected to
+  const Medium* medium = nullptr;  ///< around it
 };
 
 /// The densities of the scattering vertices that connections put on one leg.

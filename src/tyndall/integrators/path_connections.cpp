@@ -86,8 +86,8 @@ void Path::connect_vertex() {
   if (rules_.connections && rules_.connections->lit_surfaces() &&
       !vertex_->is_in_medium() && counts(0, 1))
     spend(Effort::lit_from_vertex, [&] { return connect_lit(); });
-  if (rules_.connections && rules_.connections->settings().dual &&
-      vertex_->glowing_medium() && counts(1))
+  if (rules_.connections && rules_.connections->settings().dual && vertex_->sees_glow() &&
+      counts(1))
     spend(Effort::glow, [&] { return connect_glow(); });
   const std::optional<SelectedLight> selected =
       select_light(vertex_->p(), number_for_light());

@@ -15,10 +15,9 @@ Rgb Path::connect_glow() {
   const float u = sampler_.next_1d();
   const std::optional<Vec3> pivot =
       selected ? pivots_(selected->index) : std::optional<Vec3>();
-  const Medium* glowing = vertex_->glowing_medium();
-  if (!pivot || !glowing) return Rgb();
-  const DoubleScatteringDirection technique(rules_.connections->tables(*glowing),
-                                            vertex_->p(), *pivot);
+  if (!pivot) return Rgb();
+  const DoubleScatteringDirection technique(
+      rules_.connections->tables_around(vertex_->medium()), vertex_->p(), *pivot);
   const std::optional<DoubleDirectionSample> direction = technique.sample(u_direction);
   if (!direction) return Rgb();
   const Rgb f = vertex_->eval(direction->w);

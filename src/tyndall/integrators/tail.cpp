@@ -26,10 +26,10 @@ float dual_density(const ConnectionContext& context, ConnectionLeg& before,
 // direction of the leg.
 float glow_density(const ConnectionContext& context, const LegStart& x,
                    const ConnectionLeg& leg, size_t light) {
-  if (x.is_specular || !x.glowing_medium || !context.settings().dual) return 0;
+  if (x.is_specular || !x.sees_glow || !context.settings().dual) return 0;
   const std::optional<Vec3> pivot = leg.pivot(light);
   if (!pivot) return 0;
-  const DoubleScatteringDirection direction(context.tables(*x.glowing_medium), x.p, *pivot);
+  const DoubleScatteringDirection direction(context.tables_around(x.medium), x.p, *pivot);
   return direction.pdf(leg.ray().d) *
          context.light_choice().at_point(x.p).probability(light);
 }
@@ -45,7 +45,8 @@ LegStart start_of_leg(const Vertex& vertex, float t, float pdf_direction,
           .is_in_medium = vertex.is_in_medium(),
           .ng = vertex.ng(),
           .can_be_lit = vertex.can_be_lit(),
-          .glowing_medium = vertex.glowing_medium()};
+          .sees_glow = vertex.sees_glow(),
+          .medium = vertex.medium()};
 }
 
 TailDensities tail_densities(const ConnectionContext& context, ConnectionLeg& before,

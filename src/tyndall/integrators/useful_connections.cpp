@@ -72,6 +72,7 @@ ConnectionSettings useful_connections(const Scene& scene, ConnectionSettings set
           std::max(settings.min_distance_ratio, ConnectionSettings().min_distance_ratio);
     }
   }
+  if (scene.description().media.empty()) settings.dual = settings.direction = false;
   if (!something_reflects(scene.description())) settings.lit_surfaces = 0;
   const Bounds3 box = bounds_of_media(scene.description());
   const bool is_useful = std::ranges::any_of(scene.lights(), [&](const Light& light) {

@@ -40,11 +40,10 @@ class Vertex {
   Rgb albedo() const;   ///< for the albedo layer
   Vec3 normal() const;  ///< shading normal; zero in a medium
 
-  /// The medium that a surface which reflects light looks into, where connections to what
-  /// glows can start; null elsewhere.
-  const Medium* glowing_medium() const {
-    return is_in_medium() || is_specular() ? nullptr : medium_;
-  }
+  /// A surface that reflects light from everywhere: connections to what glows can start.
+  bool sees_glow() const { return !is_in_medium() && !is_specular(); }
+  /// That light arrived through; null in vacuum.
+  const Medium* medium() const { return medium_; }
   /// A surface that can be found by rays out of lights.
   bool can_be_lit() const;
   /// Precondition: on a surface.
