@@ -6,7 +6,9 @@
 #include "support/chi_square.h"
 #include "support/quadrature.h"
 #include "support/statistical_tests.h"
+#include "tyndall/integrators/collision_distance.h"
 #include "tyndall/integrators/leg_proxy.h"
+#include "tyndall/techniques/binned_distance.h"
 
 namespace tyndall {
 namespace {
@@ -66,6 +68,29 @@ TEST(LegProxy, CollisionsHaveTheMeanDistanceOfTheMedia) {
     mean += double{s->t} / n;
   }
   EXPECT_NEAR(mean, moment / mass, 1e-4);
+}
+
+// What densities are chosen by, and the technique that they are chosen for.
+TEST(CollisionDistance, IsBinnedByWhatIsForeseen) {
+  const Scene scene(nested_balls());
+  Leg leg(scene, through, nullptr);
+  const LegProxy proxy(leg);
+  const CollisionDistance collision(proxy);
+  const std::array<float, 64> taps = collision.taps<64>();
+  for (int i = 0; i < 64; ++i) {
+    const float u = (static_cast<float>(i) + 0.5f) / 64;
+    EXPECT_NEAR(taps[static_cast<size_t>(i)], collision.sample(u)->t, 4e-4f);
+    EXPECT_NEAR(collision.invert(collision.sample(u)->t), u, 1e-5f);
+  }
+  auto weights = DistanceWeights<32>::ones();
+  for (size_t i = 0; i < 20; ++i) weights.values[i] = i % 3 == 0 ? 0.0f : 0.2f;
+  const BinnedDistance<CollisionDistance, 32> binned(collision, weights, 0.05f);
+  const ChiSquareResult result = chi_square_line(
+      [&](float u) -> std::optional<float> { return binned.sample(u)->t; },
+      [&](double t) { return double{binned.pdf_t(static_cast<float>(t))}; }, 2, 8);
+  EXPECT_GT(result.p_value, sidak(0.01, 6)) << result;
+  EXPECT_NEAR(result.mass, 1, 1e-3);
+  EXPECT_EQ(result.samples_of_zero_pdf, 0);
 }
 
 TEST(LegProxy, HasNoCollisionsInEmptySpace) {

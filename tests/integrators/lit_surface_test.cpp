@@ -45,9 +45,34 @@ SceneDescription shaded_room(const std::string& lamp) {
   return d;
 }
 
+// A foggy box between a floor and a roof with a round hole, under the sun or a sky.
+SceneDescription open_room(const std::string& light) {
+  SceneDescription d;
+  d.camera = test::camera({-0.8f, 0.1f, -0.1f}, {0.3f, 0, -0.15f}, 70, {8, 8});
+  d.media.push_back(test::grey_fog(0.3f, 0.05f, 0.5f));
+  d.surfaces.push_back(test::boundary_box(1));
+  d.surfaces.push_back(test::diffuse_disk(-0.5f, 1.4f, 0.6f));
+  Surface roof = test::diffuse_disk(0.4f, 1.4f, 0.6f);
+  std::get<Disk>(roof.shape).inner_radius = 0.3f;
+  d.surfaces.push_back(roof);
+  d.camera_medium = 0;
+  if (light == "sun")
+    d.lights.push_back(Light(DistantLight{normalize(Vec3{0.3f, -0.2f, 1}), Rgb(3)}));
+  else
+    d.lights.push_back(Light(ConstantEnvironment{Rgb(1)}));
+  return d;
+}
+
+SceneDescription lit_room(const std::string& light) {
+  return light == "sun" || light == "sky" ? open_room(light) : shaded_room(light);
+}
+
 class LitSurfaceTest : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Lamps, LitSurfaceTest,
-                         testing::Values("point", "spot", "sphere", "disk"));
+                         testing::Values("point", "spot", "sphere", "disk", "sun"));
+class LitRoomTest : public testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Lights, LitRoomTest,
+                         testing::Values("point", "spot", "sphere", "disk", "sun", "sky"));
 
 struct Mean {
   double value = 0, variance = 0;
@@ -76,17 +101,27 @@ void expect_agreement(const Scene& scene, ScatteringOrders orders, double precis
   EXPECT_LT(error, precision * reference.value);
 }
 
-TEST_P(LitSurfaceTest, AgreesWithPathTracingOverSurfaces) {
-  expect_agreement(Scene(shaded_room(GetParam())), {0, 0}, 0.06);
+TEST_P(LitRoomTest, AgreesWithPathTracingOverSurfaces) {
+  expect_agreement(Scene(lit_room(GetParam())), {0, 0}, 0.06);
 }
 
-TEST_P(LitSurfaceTest, AgreesWithPathTracingInFog) {
-  expect_agreement(Scene(shaded_room(GetParam())), {1, 20}, 0.06);
+TEST_P(LitRoomTest, AgreesWithPathTracingInFog) {
+  expect_agreement(Scene(lit_room(GetParam())), {1, 20}, 0.06);
+}
+
+// The density of evenly chosen rays, apart from the cosine at the surface.
+float expected_base(const std::string& lamp, const Light& light, const LitPoint& lit) {
+  const float distance = lit.edge[0].length;
+  if (lamp == "point") return inv_4pi / sqr(distance);
+  if (lamp == "spot") return uniform_cone_pdf(0.7f) / sqr(distance);
+  if (lamp == "sun") return 3 / (lit.flux.r * lit.choice.density);
+  const float area_of_light = area(*std::get<AreaLight>(light.variant()).shape);
+  return inv_pi / area_of_light / (lamp == "disk" ? 2.0f : 1.0f);
 }
 
 // What sample() says of a direct walk is what densities() says of its first surface.
 TEST_P(LitSurfaceTest, DensitiesAreThoseOfTheSamples) {
-  const Scene scene(shaded_room(GetParam()));
+  const Scene scene(lit_room(GetParam()));
   LitSurfaceSampling sampling(scene, 3);
   RandomStream random(5);
   for (int pass = 0; pass < 2; ++pass) {
@@ -99,14 +134,10 @@ TEST_P(LitSurfaceTest, DensitiesAreThoseOfTheSamples) {
       sampling.record(*lit, luminance(lit->flux));
       const float distance = lit->edge[0].length;
       const float cosine = abs_dot(lit->first.point.ng, lit->to_light());
-      const std::array<float, max_lit_surfaces> densities =
-          sampling.densities(lit->light, lit->to_light(), distance, cosine);
-      const bool is_area = lit->on_light.ng != Vec3{};
-      const float base =
-          is_area
-              ? inv_pi / area(*std::get<AreaLight>(scene.lights()[0].variant()).shape) /
-                    (GetParam() == "disk" ? 2.0f : 1.0f)
-              : (GetParam() == "spot" ? uniform_cone_pdf(0.7f) : inv_4pi) / sqr(distance);
+      const std::array<float, max_lit_surfaces> densities = sampling.densities(
+          lit->light, lit->first.point.p, lit->to_light(), distance, cosine);
+      if (GetParam() == "sun" && lit->surfaces > 1) continue;  // flux has reflectances
+      const float base = expected_base(GetParam(), scene.lights()[0], *lit);
       const float expected = lit->choice.density * base * cosine;
       // Where the direction is at the border of a cell, rounding may choose the other.
       if (std::abs(densities[lit->surfaces - 1] - expected) > 1e-3f * expected) {

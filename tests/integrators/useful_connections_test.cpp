@@ -52,6 +52,14 @@ TEST(UsefulConnectionsTest, FarLightsThatNothingHidesNeedNone) {
   EXPECT_FALSE(useful(std::move(sky_only)).single);
 }
 
+TEST(UsefulConnectionsTest, SkiesThatSomethingHidesAreForeseen) {
+  SceneDescription d = ball_and_light(2);
+  d.lights = {Light(DistantLight{{0, 0, 1}, Rgb(1)})};
+  d.surfaces.push_back(test::diffuse_disk(0.5f, 0.5f, 0.5f));
+  const ConnectionSettings s = useful(std::move(d));
+  EXPECT_TRUE(s.single && s.visibility && s.lit_surfaces);
+}
+
 TEST(UsefulConnectionsTest, WithoutThemLearnedIsVolpathAndSaysSo) {
   const Scene scene(ball_and_light(100));
   const auto rendered = [&](const char* integrator) {

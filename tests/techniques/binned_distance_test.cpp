@@ -12,6 +12,7 @@
 #include "tyndall/techniques/double_scattering_distance.h"
 #include "tyndall/techniques/equiangular.h"
 #include "tyndall/techniques/exponential_distance.h"
+#include "tyndall/techniques/fast_log.h"
 
 namespace tyndall {
 namespace {
@@ -35,6 +36,14 @@ DistanceWeights<taps> stripes() {
   for (size_t i = 0; i < taps; ++i)
     weights.values[i] = i % 8 < 4 ? static_cast<float>(i) : 0;
   return weights;
+}
+
+TEST(FastLog, IsTheLogarithm) {
+  for (float x = 1e-37f; x < 1e30f; x *= 1.0007f) {
+    const double exact = std::log(double{x});
+    EXPECT_NEAR(fast_log(x), exact, 3e-7 * std::max(1.0, std::abs(exact))) << x;
+  }
+  EXPECT_EQ(fast_log(1), 0);
 }
 
 TEST(BinnedDistance, SamplesFollowTheirPdf) {

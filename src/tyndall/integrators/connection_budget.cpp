@@ -11,7 +11,7 @@ namespace {
 
 // Rays that one connection, one leg of the walk with its next event estimation, and the
 // mere possibility of connections from a leg cost.
-constexpr std::array<double, 6> effort_cost{2, 4, 4, 3, 4, 2};
+constexpr std::array<double, 6> effort_cost{2, 4, 4, 3, 4, 3};
 constexpr double leg_cost = 2.5, possible_cost = 1;
 
 // Connections are given up if they lower the variance of a path less than this, and lose

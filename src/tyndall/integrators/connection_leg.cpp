@@ -44,6 +44,9 @@ ConnectionContext::ConnectionContext(const Scene& scene, const ConnectionSetting
     visibility_ = settings.known_visibility
                       ? settings.known_visibility
                       : std::make_shared<const LightVisibility>(scene);
+  const bool may_foresee = visibility_ && settings.far_visibility;
+  for (size_t i = 0; may_foresee && i < scene.lights().size(); ++i)
+    foresees_far_lights_ |= scene.lights()[i].is_infinite() && visibility_->knows(i);
   if (settings.lit_surfaces > 0) lit_.emplace(scene, settings.lit_surfaces);
   if (settings.direction) guiding_ = std::make_unique<DirectionGuiding>(scene, settings);
   for (const Medium& medium : scene.description().media) {
@@ -76,8 +79,9 @@ ConnectionLeg::ConnectionLeg(const ConnectionContext& context, const Pivots& piv
                              Leg& leg, bool is_first)
     : context_(&context), pivots_(&pivots), ray_(leg.ray()), proxy_(leg) {
   if (proxy_.is_empty()) return;
-  forces_collisions_ = is_first && context.settings().single &&
-                       proxy_.collision_share() < 1 - least_end_transmittance;
+  const bool may_pass = is_first && proxy_.collision_share() < 1 - least_end_transmittance;
+  forces_collisions_ =
+      context.settings().single && (may_pass || context.foresees_far_lights());
   t_max_ = proxy_.distance_to(end_transmittance);
 }
 
@@ -184,6 +188,36 @@ const ConnectionLeg::Double* ConnectionLeg::dual(size_t light) {
   if (!cache_->dual)
     cache_->dual.emplace(*base, weights(base->taps<8>(), false), floor_share);
   return &*cache_->dual;
+}
+
+const ConnectionLeg::Forced* ConnectionLeg::forced(size_t light) {
+  if (is_empty() || !(proxy_.collision_share() > 0)) return nullptr;
+  if (forced_ && forced_->first == light) return &forced_->second;
+  const CollisionDistance base(proxy_);
+  auto factors = DistanceWeights<32>::ones();
+  if (const LightVisibility* visibility = context_->visibility()) {
+    const std::array<float, 64> taps = base.taps<64>();
+    const float footprint = (taps.back() - taps.front()) / 64;
+    visibility->multiply(light, ray_, taps, footprint, factors.values);
+    if (!is_homogeneous())
+      visibility->multiply_transmittance(light, ray_, base.taps<32>(), factors.values);
+  }
+  forced_.emplace(light, Forced(base, factors, floor_share_of_visible));
+  return &forced_->second;
+}
+
+const LightProbabilities& ConnectionLeg::forced_lights() {
+  if (!forced_lights_)
+    forced_lights_ = context_->light_choice().at_point(ray_.at(proxy_.distance_to(0.5f)));
+  return *forced_lights_;
+}
+
+std::optional<SelectedLight> ConnectionLeg::select_forced_light(float u) {
+  return forced_lights().select(context_->scene().lights(), u);
+}
+
+float ConnectionLeg::forced_light_probability(size_t light) {
+  return forced_lights().probability(light);
 }
 
 std::optional<ConnectionLeg::Lit> ConnectionLeg::lit(Vec3 p, Vec3 ng, Vec3 to_light) const {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "tyndall/integrators/collision_distance.h"
 #include "tyndall/integrators/connection_settings.h"
 #include "tyndall/integrators/direction_guiding.h"
 #include "tyndall/integrators/leg_proxy.h"
@@ -34,6 +35,10 @@ class ConnectionContext {
   }
   /// Null if visibility is not predicted.
   const LightVisibility* visibility() const { return visibility_.get(); }
+  /// Whether dual connections, and those to glow, are made: there are lights to aim at.
+  bool makes_dual() const { return settings_.dual && light_choice_.has_finite_lights(); }
+  /// Whether it is predicted what lights at infinity see.
+  bool foresees_far_lights() const { return foresees_far_lights_; }
   /// Null if lit surfaces are not connected to.
   const LitSurfaceSampling* lit_surfaces() const { return lit_ ? &*lit_ : nullptr; }
   /// Null if directions are not learned.
@@ -50,6 +55,7 @@ class ConnectionContext {
   ConnectionSettings settings_;
   LightChoice light_choice_;
   std::shared_ptr<const LightVisibility> visibility_;
+  bool foresees_far_lights_ = false;
   std::optional<LitSurfaceSampling> lit_;
   std::unique_ptr<DirectionGuiding> guiding_;
   std::map<const Medium*, std::shared_ptr<const ScatteringTables>> tables_;
@@ -90,12 +96,15 @@ class ConnectionLeg {
  public:
   /// No connections.
   ConnectionLeg() = default;
+  ConnectionLeg(const ConnectionLeg&) = delete;
+  ConnectionLeg& operator=(const ConnectionLeg&) = delete;
   /// Traces the leg to its end.
   ConnectionLeg(const ConnectionContext& context, const Pivots& pivots, Leg& leg,
                 bool is_first = false);
 
   /// Whether lights that single() leaves out are connected to from a forced collision: on
-  /// first legs that a walk may well pass without one.
+  /// first legs that a walk may well pass without one, and on all where it is predicted
+  /// what lights at infinity see.
   bool forces_collisions() const { return forces_collisions_; }
   const Ray& ray() const { return ray_; }
   const LegProxy& proxy() const { return proxy_; }
@@ -115,6 +124,13 @@ class ConnectionLeg {
   /// The vertex before the last.
   using Double = BinnedDistance<DoubleScatteringDistance, 8>;
   const Double* dual(size_t light);
+  /// The vertex of a forced collision, for a light that single() leaves out. Null where
+  /// nothing scatters.
+  using Forced = BinnedDistance<CollisionDistance, 32>;
+  const Forced* forced(size_t light);
+  /// Draws a light for a forced collision.
+  std::optional<SelectedLight> select_forced_light(float u);
+  float forced_light_probability(size_t light);
   /// The vertex from which a lit point of a surface is seen: equi-angular about it, times
   /// transmittance, phase function and the cosine at the surface. Empty where nothing
   /// scatters.
@@ -137,6 +153,7 @@ class ConnectionLeg {
   Single bin_single(size_t light, const EquiangularSampling& base) const;
   const DoubleScatteringDistance* dual_base(size_t light);
   const LightProbabilities& lights();
+  const LightProbabilities& forced_lights();
   bool is_homogeneous() const;
   template <int K>
   DistanceWeights<K> weights(const DistanceTaps<K>& taps, bool with_phase) const;
@@ -148,7 +165,9 @@ class ConnectionLeg {
   bool forces_collisions_ = false;
   float t_max_ = 0;                           // beyond, the proxy lets no light through
   std::optional<LightProbabilities> lights_;  // once somebody asks
-  std::optional<PerLight> cache_;             // of the light last asked for
+  std::optional<LightProbabilities> forced_lights_;
+  std::optional<PerLight> cache_;                    // of the light last asked for
+  std::optional<std::pair<size_t, Forced>> forced_;  // the same
 };
 
 }  // namespace tyndall

@@ -21,6 +21,8 @@ struct ConnectionSettings {
   /// next event estimation: there is nothing to gain.
   float min_distance_ratio = 1.2f;
   bool visibility = false;  ///< predict what the lights see, for distances
+  /// ... what lights at infinity see, too, with forced collisions on every leg.
+  bool far_visibility = true;
   /// What they see, instead of tracing it.
   std::shared_ptr<const LightVisibility> known_visibility = {};
   /// Connect to surfaces that lights shine on, by way of as many surfaces in all; zero: do

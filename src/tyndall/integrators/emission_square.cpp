@@ -47,8 +47,20 @@ std::optional<Vec3> common_normal(const Shape& shape) {
 
 }  // namespace
 
-std::optional<EmissionSquare> EmissionSquare::of(const Light& light) {
+std::optional<EmissionSquare> EmissionSquare::of(const Light& light, const Bounds3& box,
+                                                 const Bounds3& scene_bounds) {
   const LightVariant& variant = light.variant();
+  if (const auto* distant = std::get_if<DistantLight>(&variant)) {
+    if (box.is_empty()) return std::nullopt;
+    const float radius = box.radius();
+    EmissionSquare square(light, Kind::parallel, Frame::from_z(distant->wi),
+                          sqr(2 * radius));
+    const float beyond =
+        2 * scene_bounds.radius() + length(scene_bounds.center() - box.center());
+    square.center_ = box.center() + distant->wi * beyond;
+    square.radius_ = radius;
+    return square;
+  }
   const Frame upright = Frame::from_z({0, 0, 1});
   if (std::holds_alternative<PointLight>(variant))
     return EmissionSquare(light, Kind::point, upright, 0);
@@ -78,8 +90,21 @@ EmittedRay EmissionSquare::emit(Vec2 direction, Vec2 point) const {
     const Vec3 w = frame_.to_world(sample_uniform_cone(direction, width));
     return {{light->p, w}, light->intensity(w), uniform_cone_pdf(width)};
   }
+  if (kind_ == Kind::parallel) return emit_parallel(direction);
   return kind_ == Kind::sphere ? emit_sphere(direction, point)
                                : emit_area(direction, point);
+}
+
+EmittedRay EmissionSquare::emit_parallel(Vec2 position) const {
+  const auto& light = std::get<DistantLight>(light_->variant());
+  const Vec3 across = frame_.x * (2 * position.x - 1) + frame_.y * (2 * position.y - 1);
+  return {{center_ + across * radius_, -light.wi}, light.L, 1 / area_};
+}
+
+// Where it is across parallel light: in the unit square if the box's square reaches it.
+Vec2 EmissionSquare::position_of(Vec3 p) const {
+  const Vec3 q = frame_.to_local(p - center_);
+  return {0.5f + 0.5f * q.x / radius_, 0.5f + 0.5f * q.y / radius_};
 }
 
 // The direction first, uniform; then a point whose normal is about it by the cosine: the
@@ -111,8 +136,10 @@ EmittedRay EmissionSquare::emit_area(Vec2 direction, Vec2 point) const {
           s.point};
 }
 
-Vec2 EmissionSquare::invert(Vec3 w) const {
+Vec2 EmissionSquare::invert(Vec3 w, Vec3 p) const {
   switch (kind_) {
+    case Kind::parallel:
+      return position_of(p);
     case Kind::point:
     case Kind::sphere:
       return invert_uniform_sphere(w);
@@ -127,10 +154,15 @@ Vec2 EmissionSquare::invert(Vec3 w) const {
   return {0.5f, 0.5f};
 }
 
-float EmissionSquare::density(Vec3 to_light, float distance) const {
+float EmissionSquare::density(Vec3 p, Vec3 to_light, float distance) const {
   // All ways to find the point have the cosine at the surface and, for area lights, the one
   // at the light over the squared distance in common.
   if (kind_ == Kind::point) return inv_4pi / sqr(distance);
+  if (kind_ == Kind::parallel) {
+    const Vec2 u = position_of(p);
+    const bool is_in_square = u.x >= 0 && u.x < 1 && u.y >= 0 && u.y < 1;
+    return is_in_square ? 1 / area_ : 0;
+  }
   if (const auto* spot = std::get_if<SpotLight>(&light_->variant())) {
     const bool is_in_cone = dot(-to_light, spot->axis) >= spot->cos_total;
     return is_in_cone ? uniform_cone_pdf(1 - spot->cos_total) / sqr(distance) : 0;

@@ -64,4 +64,13 @@ Passage passage(const Scene& scene, const Ray& ray, float t_max, const Medium* m
   return {product, end};
 }
 
+const Medium* medium_at(const Scene& scene, Vec3 p) {
+  const Vec3 eye = scene.camera().position();
+  const float distance = length(p - eye);
+  if (!(distance > 0)) return scene.camera_medium();
+  MediumSpans spans;
+  return scene.media_along({eye, (p - eye) / distance}, distance, scene.camera_medium(),
+                           spans);
+}
+
 }  // namespace tyndall

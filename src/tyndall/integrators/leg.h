@@ -41,6 +41,9 @@ class Leg {
   const Medium* medium_;           // at the start, then at the end
 };
 
+/// The medium at a point, by way of the boundaries between there and the camera.
+const Medium* medium_at(const Scene& scene, Vec3 p);
+
 /// Unbiased estimate of the transmittance of one medium, never negative.
 inline Rgb estimate_span(const Medium& medium, const Ray& ray, float t_max,
                          RandomStream& rng) {

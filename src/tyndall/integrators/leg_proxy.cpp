@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tyndall/techniques/fast_log.h"
+
 namespace tyndall {
 
 LegProxy::LegProxy(Leg& leg) {
@@ -59,6 +61,22 @@ std::optional<DistanceSample> LegProxy::sample(float u) const {
     return DistanceSample{.t = t, .pdf_t = pdf};
   }
   return std::nullopt;
+}
+
+void LegProxy::sample_roughly(std::span<float> u) const {
+  const float share = collision_share();
+  // Of thin media, whose transmittance is all but one, two terms say more.
+  const bool is_thin = share < 1e-2f;
+  for (float& x : u) {
+    const float lost = x * share;
+    x = is_thin ? lost + 0.5f * lost * lost : -fast_log(1 - lost);
+  }
+  size_t i = 0;
+  for (float& x : u) {
+    while (i + 1 < pieces_.size() && pieces_[i].end_depth() < x) ++i;
+    const float inside = std::max(x - pieces_[i].depth, 0.0f) / pieces_[i].sigma_t;
+    x = std::min(pieces_[i].t_min + inside, pieces_[i].t_max);
+  }
 }
 
 float LegProxy::collision_share() const {

@@ -103,16 +103,6 @@ float LightAim::reach(const Ray& ray, Vec2 u) const {
   return 0;
 }
 
-// By way of the boundaries between there and the camera.
-const Medium* LightAim::medium_at(Vec3 p) const {
-  const Vec3 eye = scene_->camera().position();
-  const float distance = length(p - eye);
-  if (!(distance > 0)) return scene_->camera_medium();
-  MediumSpans spans;
-  return scene_->media_along({eye, (p - eye) / distance}, distance, scene_->camera_medium(),
-                             spans);
-}
-
 void LightAim::optical_depth(const Ray& ray, std::span<const float> t,
                              std::span<float> out) const {
   std::ranges::fill(out, 0.0f);
@@ -121,7 +111,7 @@ void LightAim::optical_depth(const Ray& ray, std::span<const float> t,
   // Clear of the light's own surface.
   start->o = start->at(own_surface * focus_);
   const float before = light_->is_infinite() ? beyond_ : -length(start->o - center_);
-  Leg leg(*scene_, *start, medium_at(start->o));
+  Leg leg(*scene_, *start, medium_at(*scene_, start->o));
   const LegProxy proxy(leg);
   if (proxy.is_empty()) return;
   LegProxy::Cursor cursor(proxy);

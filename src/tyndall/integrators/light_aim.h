@@ -34,7 +34,6 @@ class LightAim {
 
  private:
   std::optional<Ray> leave(const Ray& ray, Vec2 u) const;
-  const Medium* medium_at(Vec3 p) const;
   void aim_finite(std::span<const Vec3> points);
   void aim_parallel(const Light& light, std::span<const Vec3> points);
 

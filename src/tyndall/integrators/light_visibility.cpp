@@ -8,6 +8,7 @@
 
 #include "tyndall/integrators/light_aim.h"
 #include "tyndall/integrators/pilot_points.h"
+#include "tyndall/integrators/sky_probe.h"
 #include "tyndall/math/parallel_for.h"
 
 namespace tyndall {
@@ -75,7 +76,9 @@ LightVisibility::LightVisibility(const Scene& scene,
   for (const Light& light : scene.lights()) power += power_of(light);
   for (size_t i = 0; i < scene.lights().size(); ++i) {
     const Light& light = scene.lights()[i];
-    if (!has_map(light) || points.empty()) continue;
+    if (points.empty()) continue;
+    if (light.is_environment()) measure_sky(i, scene, points, settings);
+    if (!has_map(light)) continue;
     const double share = power > 0 ? power_of(light) / power : 0;
     const VisibilityMapSettings map{
         .resolution = resolution_for(share * static_cast<double>(settings.texels)),
@@ -86,15 +89,31 @@ LightVisibility::LightVisibility(const Scene& scene,
   }
 }
 
+void LightVisibility::measure_sky(size_t light, const Scene& scene,
+                                  std::span<const Vec3> points,
+                                  const LightVisibilitySettings& settings) {
+  Bounds3 box;
+  for (const Vec3 p : points) box.extend(p);
+  ExposureGrid grid(box, settings.cells, settings.floor);
+  const SkyProbe probe(scene, scene.lights()[light], settings.rays_per_cell);
+  parallel_for(0, grid.slices(), [&](int slice) {
+    grid.measure_slice(slice, [&](Vec3 p, size_t cell) { return probe.exposure(p, cell); });
+  });
+  grid.finish();
+  skies_.emplace(light, std::move(grid));
+}
+
 void LightVisibility::multiply(size_t light, const Ray& ray, std::span<const float> t,
                                float footprint, std::span<float> weights) const {
-  const auto found = maps_.find(light);
-  if (found == maps_.end()) return;
-  const VisibilityMap* map = found->second.get();
   assert(t.size() <= max_taps && t.size() % weights.size() == 0);
   std::array<float, max_taps> visibility;
-  map->visibility(ray, t, std::span<float>(visibility.data(), t.size()),
-                  map->level_of(footprint));
+  const std::span<float> seen(visibility.data(), t.size());
+  if (const auto map = maps_.find(light); map != maps_.end())
+    map->second->visibility(ray, t, seen, map->second->level_of(footprint));
+  else if (const auto sky = skies_.find(light); sky != skies_.end())
+    sky->second.exposure(ray, t, seen);
+  else
+    return;
   const size_t taps = t.size() / weights.size();
   const float scale = 1 / static_cast<float>(taps);
   for (size_t i = 0; i < weights.size(); ++i) {
@@ -119,6 +138,7 @@ size_t LightVisibility::memory() const {
   size_t bytes = 0;
   for (const auto& [light, map] : depths_) bytes += map.memory();
   for (const auto& [light, map] : maps_) bytes += map->memory();
+  for (const auto& [light, sky] : skies_) bytes += sky.memory();
   return bytes;
 }
 

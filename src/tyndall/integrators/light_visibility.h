@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 
+#include "tyndall/guiding/exposure_grid.h"
 #include "tyndall/guiding/optical_depth_map.h"
 #include "tyndall/guiding/visibility_map.h"
 #include "tyndall/scene/scene.h"
@@ -16,10 +17,12 @@ struct LightVisibilitySettings {
   /// Of all lights together. Bounds memory, 22 bytes each, and time, four rays each at
   /// the edges of shadows.
   size_t texels = size_t{1} << 21;
+  int cells = 1 << 14;  ///< of the grid of an environment
+  int rays_per_cell = 32;
 };
 
-/// What each light sees, predicted: one visibility map per light, traced once. Environments
-/// have none.
+/// What each light sees, predicted: one visibility map per light, traced once; for each
+/// environment a grid of how much of it a place sees.
 ///
 /// Maps look where camera paths come by: a far light spends its texels on the part of its
 /// sky that the scene takes up. Bright lights get finer maps than dim ones.
@@ -46,11 +49,19 @@ class LightVisibility {
   void multiply_transmittance(size_t light, const Ray& ray, std::span<const float> t,
                               std::span<float> weights) const;
   const Maps& maps() const { return maps_; }
+  /// Whether anything is predicted for the light.
+  bool knows(size_t light) const {
+    return maps_.find(light) != maps_.end() || skies_.find(light) != skies_.end();
+  }
   size_t memory() const;  ///< [bytes]
 
  private:
+  void measure_sky(size_t light, const Scene& scene, std::span<const Vec3> points,
+                   const LightVisibilitySettings& settings);
+
   Depths depths_;
   Maps maps_;  // none for environments
+  std::map<size_t, ExposureGrid> skies_;
 };
 
 }  // namespace tyndall

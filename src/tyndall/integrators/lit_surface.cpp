@@ -5,6 +5,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "tyndall/integrators/leg.h"
+#include "tyndall/integrators/pilot_points.h"
 #include "tyndall/math/frame.h"
 #include "tyndall/sampling/warps.h"
 
@@ -13,12 +15,19 @@ namespace {
 
 constexpr size_t max_bytes = size_t{16} << 20;
 
+// What matters of the scene: where media scatter light that gets to the camera.
+Bounds3 bounds_of_interest(const Scene& scene) {
+  Bounds3 box;
+  for (const Vec3 p : pilot_points(scene)) box.extend(p);
+  return box.is_empty() || !(box.radius() > 0) ? scene.bounds() : box;
+}
+
 // Before anything is learned, a walk over one more surface is tried half as often.
 std::vector<float> powers(const Scene& scene, int max_surfaces) {
   std::vector<float> powers;
   for (const Light& light : scene.lights()) {
     float power =
-        EmissionSquare::of(light) ? luminance(light.power(scene.bounds().radius())) : 0;
+        light.is_environment() ? 0 : luminance(light.power(scene.bounds().radius()));
     for (int i = 0; i < max_surfaces; ++i, power *= 0.5f) powers.push_back(power);
   }
   return powers;
@@ -45,7 +54,12 @@ LitSurfaceSampling::LitSurfaceSampling(const Scene& scene, int max_surfaces)
       max_surfaces_(max_surfaces),
       learned_(powers(scene, max_surfaces), max_bytes) {
   assert(1 <= max_surfaces && max_surfaces <= max_lit_surfaces);
-  for (const Light& light : scene.lights()) squares_.push_back(EmissionSquare::of(light));
+  const bool is_parallel = std::ranges::any_of(scene.lights(), [](const Light& l) {
+    return l.is_infinite() && !l.is_environment();
+  });
+  const Bounds3 box = is_parallel ? bounds_of_interest(scene) : Bounds3{};
+  for (const Light& light : scene.lights())
+    squares_.push_back(EmissionSquare::of(light, box, scene.bounds()));
 }
 
 bool LitSurfaceSampling::finds(const Surface& surface) {
@@ -83,12 +97,14 @@ std::optional<LitPoint> LitSurfaceSampling::sample(float u_choice, Vec2 u_point,
 
 // To the next surface. False if there is none that is found.
 bool LitSurfaceSampling::go(LitPoint& lit, const Ray& ray) const {
+  const bool is_from_infinity =
+      lit.surfaces == 0 && scene_->lights()[lit.light].is_infinite();
   const std::optional<SurfaceHit> hit = scene_->intersect_opaque(ray, infinity);
   if (!hit || !finds(*hit->surface)) return false;
   lit.hit = *hit;
   lit.edge[lit.surfaces++] = {
       .ray = {offset_origin(hit->point.p, hit->point.ng, -ray.d), -ray.d},
-      .length = hit->t};
+      .length = is_from_infinity ? far_distance : hit->t};
   return true;
 }
 
@@ -109,20 +125,21 @@ bool LitSurfaceSampling::bounce(LitPoint& lit, RandomStream& rng) const {
   return true;
 }
 
-std::array<float, max_lit_surfaces> LitSurfaceSampling::densities(size_t light,
+std::array<float, max_lit_surfaces> LitSurfaceSampling::densities(size_t light, Vec3 p,
                                                                   Vec3 to_light,
                                                                   float distance,
                                                                   float cos_light) const {
   std::array<float, max_lit_surfaces> densities{};
   const std::optional<EmissionSquare>& square = squares_[light];
   if (!square) return densities;
-  const float base = square->density(to_light, distance) * cos_light;
+  const float base = square->density(p, to_light, distance) * cos_light;
+  if (!(base > 0)) return densities;
   const bool is_learned = square->is_invertible();
-  const Vec2 p = is_learned ? square->invert(-to_light) : Vec2{};
+  const Vec2 u = is_learned ? square->invert(-to_light, p) : Vec2{};
   for (int i = 0; i < max_surfaces_; ++i) {
     const size_t index = light * max_surfaces_ + static_cast<size_t>(i);
     densities[i] =
-        base * (is_learned ? learned_.density(index, p) : learned_.probability(index));
+        base * (is_learned ? learned_.density(index, u) : learned_.probability(index));
   }
   return densities;
 }

@@ -28,7 +28,7 @@ struct LitChain {
   }
 };
 
-/// A surface point that a finite light shines on, by way of other surfaces or directly,
+/// A surface point that a light shines on, by way of other surfaces or directly,
 /// found by a walk out of the light: bright surfaces near a lamp are found as often as they
 /// are bright, where a walk from the camera hardly ever meets them.
 struct LitPoint {
@@ -55,10 +55,10 @@ struct LitPoint {
   Vec3 to_light() const { return edge[0].ray.d; }
 };
 
-/// Walks out of finite lights over surfaces that reflect diffusely, in directions that were
-/// worth most so far: the light, the number of surfaces and the direction are chosen by
-/// what earlier points have contributed, at first by power and evenly into the light's
-/// cone; from area lights by area and cosine.
+/// Walks out of lights, but for environments, over surfaces that reflect diffusely, in
+/// directions that were worth most so far: the light, the number of surfaces and the
+/// direction are chosen by what earlier points have contributed, at first by power and
+/// evenly into the light's cone; from area lights by area and cosine.
 ///
 /// record() may be called from many threads; update() from one, while nothing else is
 /// called.
@@ -73,12 +73,12 @@ class LitSurfaceSampling {
   std::optional<LitPoint> sample(float u_choice, Vec2 u_point, Vec2 u_direction,
                                  RandomStream& rng) const;
 
-  /// The densities of the first surface of walks over 1, 2 ... surfaces, for a point at
+  /// The densities of the first surface of walks over 1, 2 ... surfaces, for a point `p` at
   /// `distance` from the light, which lies in the unit direction `to_light` under an angle
   /// of cosine `cos_light`: w.r.t. area, up to the factor that turns the solid angle of
   /// next event estimation from there into the light's area (one if it is a delta).
-  std::array<float, max_lit_surfaces> densities(size_t light, Vec3 to_light, float distance,
-                                                float cos_light) const;
+  std::array<float, max_lit_surfaces> densities(size_t light, Vec3 p, Vec3 to_light,
+                                                float distance, float cos_light) const;
 
   /// The point has added `value` to a pixel, in units of the mean pixel.
   void record(const LitPoint& lit, float value) const {
@@ -94,7 +94,7 @@ class LitSurfaceSampling {
 
   const Scene* scene_;
   int max_surfaces_;
-  std::vector<std::optional<EmissionSquare>> squares_;  // none for lights at infinity
+  std::vector<std::optional<EmissionSquare>> squares_;  // none for environments
   LearnedSquares learned_;  // of each light in turn, for each number of surfaces
 };
 

@@ -37,8 +37,8 @@ Path::Path(const Scene& scene, const PathRules& rules, const Ray& ray, Sampler& 
 }
 
 void Path::look_at_end(Leg& leg) {
-  saw_end_ = rules_.connections && depth_ == 0 && !leg_.is_empty() &&
-             leg_.proxy().transmittance(far_distance) > least_end_transmittance;
+  saw_end_ = rules_.connections && depth_ == 0 && !leg_->is_empty() &&
+             leg_->proxy().transmittance(far_distance) > least_end_transmittance;
   if (!saw_end_) return;
   const Rgb beta = beta_;
   const Medium* const medium = medium_;

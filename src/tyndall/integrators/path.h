@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "tyndall/image/film.h"
@@ -153,9 +154,11 @@ class Path {
   // The last legs, for the densities of techniques that the walk did not use.
   Pivots pivots_;
   LitChain chain_;  // to vertex_; while the walk is on a leg, to where that starts
-  ConnectionLeg leg_, leg_before_, leg_two_before_;
-  LegStart start_;         // of leg_
-  LegStart start_before_;  // of leg_before_
+  ConnectionLeg no_leg_;
+  ConnectionLeg *leg_ = &no_leg_, *leg_before_ = &no_leg_, *leg_two_before_ = &no_leg_;
+  std::array<std::optional<ConnectionLeg>, 3> legs_;  // the same, in turn
+  LegStart start_;                                    // of leg_
+  LegStart start_before_;                             // of leg_before_
   PathSample result_;
   size_t region_ = 0;  // of the budget
   float spent_ = 0;    // on connections

@@ -86,7 +86,7 @@ void Path::connect_vertex() {
   if (rules_.connections && rules_.connections->lit_surfaces() &&
       !vertex_->is_in_medium() && counts(0, 1))
     spend(Effort::lit_from_vertex, [&] { return connect_lit(); });
-  if (rules_.connections && rules_.connections->settings().dual && vertex_->sees_glow() &&
+  if (rules_.connections && rules_.connections->makes_dual() && vertex_->sees_glow() &&
       counts(1))
     spend(Effort::glow, [&] { return connect_glow(); });
   const std::optional<SelectedLight> selected =
@@ -101,7 +101,7 @@ void Path::connect_vertex() {
 // Whether next event estimation at the current vertex would have the weight zero.
 bool Path::is_left_to_connections(size_t light) {
   if (!rules_.connections || !vertex_->is_in_medium()) return false;
-  return leg_.forces_collisions() || leg_.reaches_single(light, t_vertex_);
+  return leg_->forces_collisions() || leg_->reaches_single(light, t_vertex_);
 }
 
 // Of next event estimation at the current vertex.
@@ -110,8 +110,8 @@ float Path::direct_weight(const LightEnd& end) {
     return balance_heuristic(end.probability * end.pdf, end.pdf_direction);
   const TailDensities densities =
       vertex_->is_in_medium()
-          ? tail_densities(*rules_.connections, leg_before_, start_, leg_, t_vertex_, end)
-          : surface_tail_densities(*rules_.connections, chain_, end,
+          ? tail_densities(*rules_.connections, *leg_before_, start_, *leg_, t_vertex_, end)
+          : surface_tail_densities(*rules_.connections, chain_, vertex_->p(), end,
                                    abs_dot(vertex_->ng(), end.to_light));
   return densities.weight(densities.direct);
 }
@@ -129,29 +129,30 @@ float Path::hit_weight(size_t light, float light_pdf, float distance) {
   if (!rules_.connections)
     return balance_heuristic(end.pdf_direction, end.probability * end.pdf);
   const TailDensities densities =
-      start_.is_in_medium ? tail_densities(*rules_.connections, leg_two_before_,
-                                           start_before_, leg_before_, start_.t, end)
-                          : surface_tail_densities(*rules_.connections, chain_, end,
-                                                   abs_dot(start_.ng, ray_.d));
+      start_.is_in_medium ? tail_densities(*rules_.connections, *leg_two_before_,
+                                           start_before_, *leg_before_, start_.t, end)
+                          : surface_tail_densities(*rules_.connections, chain_, start_.p,
+                                                   end, abs_dot(start_.ng, ray_.d));
   return densities.weight(densities.hit);
 }
 
 // Remembers the legs that densities of connections need.
 void Path::enter(Leg& leg) {
-  leg_two_before_ = std::move(leg_before_);
-  leg_before_ = std::move(leg_);
-  leg_ = ConnectionLeg(*rules_.connections, pivots_, leg, depth_ == 0);
+  std::optional<ConnectionLeg>& next = legs_[static_cast<size_t>(depth_) % legs_.size()];
+  leg_two_before_ = leg_before_;
+  leg_before_ = leg_;
+  leg_ = &next.emplace(*rules_.connections, pivots_, leg, depth_ == 0);
 }
 
 void Path::connect(Leg& leg) {
   if (!rules_.connections) return;
   enter(leg);
-  if (leg_.is_empty()) return;
+  if (leg_->is_empty()) return;
   const bool has_finite = rules_.connections->light_choice().has_finite_lights();
   if (has_finite && counts(1)) spend(Effort::single, [&] { return connect_single(leg); });
-  if (counts(1) && leg_.forces_collisions())
+  if (counts(1) && leg_->forces_collisions())
     spend(Effort::forced, [&] { return connect_forced(leg); });
-  if (has_finite && counts(2) && rules_.connections->settings().dual)
+  if (rules_.connections->makes_dual() && counts(2))
     spend(Effort::dual, [&] { return connect_dual(leg); });
   if (rules_.connections->lit_surfaces() && counts(1, 1))
     spend(Effort::lit_from_leg, [&] { return connect_lit(leg); });
@@ -170,13 +171,13 @@ Rgb Path::leg_transmittance(Leg& leg, float t) {
 }
 
 Rgb Path::connect_single(Leg& leg) {
-  const std::optional<SelectedLight> selected = leg_.select_light(number_for_light());
+  const std::optional<SelectedLight> selected = leg_->select_light(number_for_light());
   const float u = sampler_.next_1d();
-  if (!selected || leg_before_.reaches_dual(start_, selected->index)) return Rgb();
-  const ConnectionLeg::Single* single = leg_.single(selected->index);
+  if (!selected || leg_before_->reaches_dual(start_, selected->index)) return Rgb();
+  const ConnectionLeg::Single* single = leg_->single(selected->index);
   if (!single) return Rgb();
   const std::optional<DistanceSample> s = single->sample(u);
-  const Medium* medium = s ? leg_.proxy().medium_at(s->t) : nullptr;
+  const Medium* medium = s ? leg_->proxy().medium_at(s->t) : nullptr;
   return medium ? connect_at(leg, *s, *medium, *selected, &TailDensities::single) : Rgb();
 }
 
@@ -187,7 +188,7 @@ Rgb Path::connect_at(Leg& leg, const DistanceSample& s, const Medium& medium,
   const Connection connection = connect_to(last, selected);
   if (is_black(connection.light)) return Rgb();
   const TailDensities densities =
-      tail_densities(*rules_.connections, leg_before_, start_, leg_, s.t, connection.end);
+      tail_densities(*rules_.connections, *leg_before_, start_, *leg_, s.t, connection.end);
   const Rgb value =
       leg_transmittance(leg, s.t) * medium.at(last.p()).sigma_s * connection.light;
   return beta_ * value *

@@ -22,18 +22,18 @@ struct Path::ScatteredOnce {
 };
 
 Rgb Path::connect_dual(Leg& leg) {
-  const std::optional<SelectedLight> selected = leg_.select_light(number_for_light());
+  const std::optional<SelectedLight> selected = leg_->select_light(number_for_light());
   const float u_first = sampler_.next_1d(), u_last = sampler_.next_1d();
   const Vec2 u_direction = sampler_.next_2d();
-  const ConnectionLeg::Double* dual = selected ? leg_.dual(selected->index) : nullptr;
+  const ConnectionLeg::Double* dual = selected ? leg_->dual(selected->index) : nullptr;
   if (!dual) return Rgb();
   const std::optional<DistanceSample> first = dual->sample(u_first);
-  const Medium* medium = first ? leg_.proxy().medium_at(first->t) : nullptr;
+  const Medium* medium = first ? leg_->proxy().medium_at(first->t) : nullptr;
   if (!medium) return Rgb();
   const Vertex x(leg.ray().at(first->t), -leg.ray().d, medium);
   const DualDirection technique =
       dual_direction(*rules_.connections, *medium, x.p(), leg.ray().d, selected->index,
-                     *leg_.pivot(selected->index));
+                     *leg_->pivot(selected->index));
   const std::optional<DoubleDirectionSample> direction = technique.sample(u_direction);
   if (!direction) return Rgb();
   const DualStart start{*selected, x, medium, *first, *direction};
@@ -48,7 +48,7 @@ Rgb Path::connect_dual(Leg& leg) {
 
 void Path::rehearse(Leg& leg) {
   enter(leg);
-  if (!leg_.is_empty() && counts(2)) connect_dual(leg);
+  if (!leg_->is_empty() && counts(2)) connect_dual(leg);
 }
 
 // Follows the direction of the dual connection to its second vertex, and connects that.
@@ -78,7 +78,7 @@ float Path::dual_weight(const DualStart& start, ConnectionLeg& next, float t,
   const LegStart at_x =
       start_of_leg(start.x, start.distance.t, start.x.pdf(start.direction.w), false);
   const TailDensities densities =
-      tail_densities(*rules_.connections, leg_, at_x, next, t, end);
+      tail_densities(*rules_.connections, *leg_, at_x, next, t, end);
   return densities.weight(densities.dual);
 }
 
@@ -90,7 +90,7 @@ void Path::teach(const DualStart& start, const DualDirection& technique,
   const uint64_t key = hash(key_, ++lessons_);
   if (!guiding->wants(key)) return;
   const Vec3 w = start.direction.w;
-  const Vec3 to_light = *leg_.pivot(start.light.index) - start.x.p();
+  const Vec3 to_light = *leg_->pivot(start.light.index) - start.x.p();
   const float distance = length(to_light);
   const DirectionShares densities = technique.densities(w);
   TrainingSample sample;
@@ -106,7 +106,7 @@ void Path::teach(const DualStart& start, const DualDirection& technique,
   sample.scattered = luminance(start.x.eval(w));
   sample.light_distance = distance;
   sample.scatter_distance = found.distance;
-  LegProxy::Cursor cursor(leg_.proxy());
+  LegProxy::Cursor cursor(leg_->proxy());
   cursor.move_to(start.distance.t);
   sample.sigma_t = cursor.sigma_t();
   sample.cluster = guiding->cluster_of(start.light.index);

@@ -38,7 +38,7 @@ Rgb Path::connect_glow() {
   const LegStart start =
       start_of_leg(*vertex_, t_vertex_, vertex_->pdf(direction->w), false);
   const TailDensities densities =
-      tail_densities(*rules_.connections, leg_, start, next_leg, s->t, connection.end);
+      tail_densities(*rules_.connections, *leg_, start, next_leg, s->t, connection.end);
   const Rgb value =
       f * leg_transmittance(next, s->t) * medium->at(last.p()).sigma_s * connection.light;
   const float pdf = selected->probability * direction->pdf * s->pdf_t * connection.end.pdf;

@@ -76,7 +76,7 @@ float Path::lit_weight(const LitPoint& lit, float edge, const LitChain& beyond) 
   chain.push_back(edge);
   for (int i = 0; i < beyond.size; ++i) chain.push_back(beyond.edge[i]);
   const TailDensities densities =
-      surface_tail_densities(*rules_.connections, chain, light_end(lit),
+      surface_tail_densities(*rules_.connections, chain, lit.first.point.p, light_end(lit),
                              abs_dot(lit.first.point.ng, lit.to_light()));
   return densities.weight(densities.lit[lit.surfaces - 1]);
 }
@@ -87,16 +87,16 @@ Rgb Path::connect_lit(Leg& leg) {
   if (!lit || !counts(1, lit->surfaces)) return Rgb();
   const SurfacePoint& y = lit->hit.point;
   const std::optional<ConnectionLeg::Lit> technique =
-      leg_.lit(y.p, y.ng, lit->to_previous());
+      leg_->lit(y.p, y.ng, lit->to_previous());
   const std::optional<DistanceSample> s =
       technique ? technique->sample(u) : std::optional<DistanceSample>();
-  const Medium* medium = s ? leg_.proxy().medium_at(s->t) : nullptr;
+  const Medium* medium = s ? leg_->proxy().medium_at(s->t) : nullptr;
   if (!medium) return Rgb();
   const Vertex x(leg.ray().at(s->t), -leg.ray().d, medium);
   const std::optional<LitView> view = look_at(*lit, x);
   if (!view || is_black(view->light)) return Rgb();
   const float edge = x.pdf(view->w) * abs_dot(y.ng, view->w) / sqr(view->distance) *
-                     leg_.proxy().collision_pdf_t(s->t) / s->pdf_t;
+                     leg_->proxy().collision_pdf_t(s->t) / s->pdf_t;
   const Rgb scattered =
       leg_transmittance(leg, s->t) * medium->at(x.p()).sigma_s * x.eval(view->w);
   return record(*lit,
@@ -109,7 +109,7 @@ Rgb Path::connect_lit() {
   const std::optional<LitView> view = look_at(*lit, *vertex_);
   if (!view || is_black(view->light)) return Rgb();
   const float edge =
-      edge_density(start_of_leg(*vertex_, t_vertex_, vertex_->pdf(view->w), false), leg_,
+      edge_density(start_of_leg(*vertex_, t_vertex_, vertex_->pdf(view->w), false), *leg_,
                    lit->hit.point, view->w, view->distance);
   return record(
       *lit, beta_ * vertex_->eval(view->w) * view->light * lit_weight(*lit, edge, chain_));
@@ -134,7 +134,7 @@ LitChain Path::chain_to(const Vertex& y, float distance) const {
   if (!rules_.connections || !rules_.connections->lit_surfaces()) return {};
   if (start_.is_specular || !y.can_be_lit()) return {};
   LitChain chain = start_.can_be_lit ? chain_ : LitChain{};
-  chain.push_front(edge_density(start_, leg_before_, y.point(), ray_.d, distance));
+  chain.push_front(edge_density(start_, *leg_before_, y.point(), ray_.d, distance));
   return chain;
 }
 

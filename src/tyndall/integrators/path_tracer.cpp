@@ -118,12 +118,12 @@ uint32_t PathTracer::prepare(uint32_t first) {
 void PathTracer::record_plain_paths() const {
   const int64_t count =
       std::clamp(int64_t{resolution_.x} * resolution_.y, min_trial_paths, max_trial_paths);
-  for_pilot_rays(static_cast<uint32_t>(count), [&](const Ray& ray, Sampler& sampler,
-                                                   Vec2i pixel) {
-    const Path path = trace(plain_rules_, ray, sampler);
-    budget_->record_plain_path(budget_->region(pixel),
-                               {.value = luminance(path.result().L), .legs = path.legs()});
-  });
+  for_pilot_rays(
+      static_cast<uint32_t>(count), [&](const Ray& ray, Sampler& sampler, Vec2i pixel) {
+        const Traced path = trace(plain_rules_, ray, sampler);
+        budget_->record_plain_path(budget_->region(pixel),
+                                   {.value = luminance(path.sample.L), .legs = path.legs});
+      });
 }
 
 void PathTracer::report(RenderStatistics& statistics) const {
@@ -158,10 +158,11 @@ void PathTracer::dump(GuidingFileWriter& out) const {
 
 PathSample PathTracer::Li(const Ray& ray, Sampler& sampler) const {
   const bool is_plain = budget_ && !budget_->pays();
-  return trace(is_plain ? plain_rules_ : rules_, ray, sampler).result();
+  return trace(is_plain ? plain_rules_ : rules_, ray, sampler).sample;
 }
 
-Path PathTracer::trace(const PathRules& rules, const Ray& ray, Sampler& sampler) const {
+PathTracer::Traced PathTracer::trace(const PathRules& rules, const Ray& ray,
+                                     Sampler& sampler) const {
   Path path(scene_, rules, ray, sampler);
   do {
     Leg leg(scene_, path.ray(), path.medium());
@@ -171,7 +172,7 @@ Path PathTracer::trace(const PathRules& rules, const Ray& ray, Sampler& sampler)
     path.estimate_direct();
   } while (path.scatter());
   path.finish();
-  return path;
+  return {path.result(), path.legs()};
 }
 
 }  // namespace tyndall

@@ -24,7 +24,11 @@ class PathTracer : public Integrator {
   const Scene& scene_;
   template <typename Trace>
   void for_pilot_rays(uint32_t count, const Trace& trace) const;
-  Path trace(const PathRules& rules, const Ray& ray, Sampler& sampler) const;
+  struct Traced {
+    PathSample sample;
+    int legs;
+  };
+  Traced trace(const PathRules& rules, const Ray& ray, Sampler& sampler) const;
   float pilot_radiance() const;
   void pretrain(DirectionGuiding& guiding) const;
   void record_plain_paths() const;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tyndall/integrators/tail.h"
 
-#include <utility>
-
 #include "tyndall/integrators/dual_direction.h"
 
 namespace tyndall {
@@ -56,8 +54,11 @@ TailDensities tail_densities(const ConnectionContext& context, ConnectionLeg& be
   TailDensities densities{.direct = collision * end.probability * end.pdf,
                           .hit = collision * end.pdf_direction};
   if (!leg.reaches_single(end.light, t)) {
-    if (leg.forces_collisions())
-      densities.forced = std::exchange(densities.direct, 0) / leg.proxy().collision_share();
+    if (!leg.forces_collisions()) return densities;
+    const ConnectionLeg::Forced* forced = leg.forced(end.light);
+    densities.direct = 0;
+    densities.forced =
+        forced ? forced->pdf_t(t) * leg.forced_light_probability(end.light) * end.pdf : 0;
     return densities;
   }
   const float last = leg.single(end.light)->pdf_t(t) * end.pdf;
@@ -76,14 +77,14 @@ TailDensities tail_densities(const ConnectionContext& context, ConnectionLeg& be
 }
 
 TailDensities surface_tail_densities(const ConnectionContext& context,
-                                     const LitChain& chain, const LightEnd& end,
+                                     const LitChain& chain, Vec3 p, const LightEnd& end,
                                      float cos_light) {
   TailDensities densities{.direct = end.probability * end.pdf, .hit = end.pdf_direction};
   if (chain.size == 0) return densities;
   // The density of a connection across an edge lacks that edge, and has that of the walk
   // out of the light instead; all others are the same both ways.
-  const std::array<float, max_lit_surfaces> first =
-      context.lit_surfaces()->densities(end.light, end.to_light, end.distance, cos_light);
+  const std::array<float, max_lit_surfaces> first = context.lit_surfaces()->densities(
+      end.light, p, end.to_light, end.distance, cos_light);
   for (int i = 0; i < chain.size; ++i) densities.lit[i] = first[i] / chain.edge[i];
   return densities;
 }

@@ -30,7 +30,7 @@ struct LightEnd {
 /// the next one does, with less variance; doing both costs rays that buy nothing.
 struct TailDensities {
   float direct = 0;  ///< a walk, then next event estimation
-  float forced = 0;  ///< the same after a forced collision on the first leg
+  float forced = 0;  ///< the same after a forced collision
   float hit = 0;     ///< a walk that hits the light
   float single = 0;  ///< a walk up to the vertex before the last, then a single connection
   float glow = 0;    ///< a walk to the surface before the last vertex, then to its glow
@@ -54,10 +54,10 @@ TailDensities tail_densities(const ConnectionContext& context, ConnectionLeg& be
                              const LegStart& x, ConnectionLeg& leg, float t,
                              const LightEnd& end);
 
-/// A path whose last vertex lies on a surface that sees the light under an angle of cosine
-/// `cos_light`; `chain` holds the edges of the walk to that surface.
+/// A path whose last vertex `p` lies on a surface that sees the light under an angle of
+/// cosine `cos_light`; `chain` holds the edges of the walk to that surface.
 TailDensities surface_tail_densities(const ConnectionContext& context,
-                                     const LitChain& chain, const LightEnd& end,
+                                     const LitChain& chain, Vec3 p, const LightEnd& end,
                                      float cos_light);
 
 }  // namespace tyndall

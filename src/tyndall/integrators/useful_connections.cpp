@@ -67,6 +67,7 @@ ConnectionSettings useful_connections(const Scene& scene, ConnectionSettings set
         !std::ranges::all_of(scene.description().media, &Medium::is_homogeneous);
     if (!something_hides_light(scene)) {
       settings.visibility = settings.visibility && is_varied;
+      settings.far_visibility = false;
       settings.direction = settings.direction && is_varied;
       settings.min_distance_ratio =
           std::max(settings.min_distance_ratio, ConnectionSettings().min_distance_ratio);
@@ -76,8 +77,8 @@ ConnectionSettings useful_connections(const Scene& scene, ConnectionSettings set
   if (!something_reflects(scene.description())) settings.lit_surfaces = 0;
   const Bounds3 box = bounds_of_media(scene.description());
   const bool is_useful = std::ranges::any_of(scene.lights(), [&](const Light& light) {
-    return light.extent() &&
-           (box.is_empty() || is_near(light, box, settings.min_distance_ratio));
+    if (!light.extent()) return settings.visibility && settings.far_visibility;
+    return box.is_empty() || is_near(light, box, settings.min_distance_ratio);
   });
   if (!is_useful) settings.single = settings.dual = settings.direction = false;
   return settings;
