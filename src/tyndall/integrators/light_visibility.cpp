@@ -96,7 +96,7 @@ void LightVisibility::measure_sky(size_t light, const Scene& scene,
   for (const Vec3 p : points) box.extend(p);
   ExposureGrid grid(box, settings.cells, settings.floor);
   const SkyProbe probe(scene, scene.lights()[light], settings.rays_per_cell);
-  parallel_for(0, grid.slices(), [&](int slice) {
+  for_rows(grid.slices(), [&](int slice) {
     grid.measure_slice(slice, [&](Vec3 p, size_t cell) { return probe.exposure(p, cell); });
   });
   grid.finish();
