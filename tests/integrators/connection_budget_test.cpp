@@ -99,8 +99,8 @@ TEST(ConnectionBudget, HoldsOutAgainstFireflies) {
 }
 
 // Everywhere, paths that find 1 -+ deviation: with connections of this cost, and without.
-bool pays(float with, float spent, float without) {
-  ConnectionBudget budget(1, size);
+bool pays(float with, float spent, float without, double overhead = 1) {
+  ConnectionBudget budget(1, size, overhead);
   for (int x = 0; x < size.x; ++x)
     for (int i = 0; i < paths; ++i) {
       const size_t region = budget.region({x, 0});
@@ -115,6 +115,8 @@ bool pays(float with, float spent, float without) {
 TEST(ConnectionBudget, GivesUpWhatGainsNothing) {
   EXPECT_FALSE(pays(1, 4, 1));
   EXPECT_TRUE(pays(1, 4, 1.3f));   // 1.7 times the variance, at a cost of 11 to 5
+  EXPECT_FALSE(pays(1, 5, 1.3f));  // the same, 12 to 5
+  EXPECT_FALSE(pays(1, 4, 1.3f, 1.3));
   EXPECT_TRUE(pays(1, 0, 1.15f));  // 1.3 times, 7 to 5
   EXPECT_FALSE(pays(1, 1, 1.1f));  // 1.2 times, 8 to 5
 }

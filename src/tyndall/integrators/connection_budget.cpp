@@ -14,9 +14,11 @@ namespace {
 constexpr std::array<double, 6> effort_cost{2, 4, 4, 3, 4, 3};
 constexpr double leg_cost = 2.5, possible_cost = 1;
 
-// Connections are given up if they lower the variance of a path less than this, and lose
-// more than that share of efficiency.
-constexpr double least_gain = 1.5, least_efficiency = 0.9;
+// Connections are given up if they leave less than this share of the efficiency of plain
+// paths. Where they lower the variance by much they may leave less: they do so by finding
+// what is rare, and more of it than was seen so far.
+constexpr double least_efficiency = 0.9, great_gain = 1.5,
+                 least_efficiency_of_great_gain = 0.75;
 constexpr double least_paths = 4000;  // to judge by
 
 // A connection that seems worthless may still be all that finds something rare; most of
@@ -55,8 +57,9 @@ struct ConnectionBudget::Worth {
   double price;                        // of cost, in weighted squares
 };
 
-ConnectionBudget::ConnectionBudget(float mean_radiance, Vec2i resolution)
-    : scale_(mean_radiance > 0 ? 1 / mean_radiance : 1),
+ConnectionBudget::ConnectionBudget(float mean_radiance, Vec2i resolution, double overhead)
+    : overhead_(overhead),
+      scale_(mean_radiance > 0 ? 1 / mean_radiance : 1),
       resolution_(resolution),
       size_{std::clamp(resolution.x, 1, max_size), std::clamp(resolution.y, 1, max_size)},
       regions_(static_cast<size_t>(size_.x) * static_cast<size_t>(size_.y)),
@@ -101,7 +104,8 @@ void ConnectionBudget::record_path(size_t region, const Finished& path) const {
   add(r.legs, path.legs);
   add(r.recent.squares, square);
   add(r.recent.paths, 1);
-  const double cost = (leg_cost + possible_cost) * path.legs + double{path.spent};
+  const double cost =
+      (leg_cost + possible_cost) * path.legs + overhead_ * double{path.spent};
   add(r.recent.cost, static_cast<int64_t>(cost / cost_unit));
 }
 
@@ -162,8 +166,10 @@ bool ConnectionBudget::is_worth_it(const Worth& worth) const {
   const Efficiency with = efficiency(&Region::recent, worth);
   const Efficiency without = efficiency(&Region::plain, worth);
   if (with.paths < least_paths || without.paths < least_paths) return true;
-  return without.variance > least_gain * with.variance ||
-         without.variance * without.cost > least_efficiency * with.variance * with.cost;
+  const double least = without.variance > great_gain * with.variance
+                           ? least_efficiency_of_great_gain
+                           : least_efficiency;
+  return without.variance * without.cost > least * with.variance * with.cost;
 }
 
 void ConnectionBudget::update_cell(size_t cell, const Worth& worth) {

@@ -31,8 +31,9 @@ enum class Effort { single, dual, lit_from_leg, lit_from_vertex, glow, forced };
 /// runs.
 class ConnectionBudget {
  public:
-  /// `mean_radiance` of the picture, roughly; its size in pixels.
-  ConnectionBudget(float mean_radiance, Vec2i resolution);
+  /// `mean_radiance` of the picture, roughly; its size in pixels; what connections cost
+  /// altogether, in units of what their rays cost.
+  ConnectionBudget(float mean_radiance, Vec2i resolution, double overhead = 1);
 
   /// The region of a pixel; any pixel has one.
   size_t region(Vec2i pixel) const;
@@ -69,9 +70,8 @@ class ConnectionBudget {
   /// Nothing more needs to be recorded.
   void end_recording() { is_recording_ = false; }
   bool is_recording() const { return is_recording_; }
-  /// False if connections are known to be of no use. They are given up only where they
-  /// hardly lower the variance of a path: the worst of a path tracer's variance, lights
-  /// within reach of its vertices, takes more than a few paths to be seen.
+  /// False if connections are known to be of no use: the worst of a path tracer's variance,
+  /// lights within reach of its vertices, takes more than a few paths to be seen.
   bool pays() const { return pays_; }
 
   /// Mean over the picture.
@@ -105,7 +105,7 @@ class ConnectionBudget {
   Efficiency efficiency(Tally Region::*tally, const Worth& worth) const;
   bool is_worth_it(const Worth& worth) const;
 
-  double scale_;
+  double overhead_, scale_;
   Vec2i resolution_, size_;
   bool is_recording_ = true, pays_ = true;
   mutable std::vector<Region> regions_;
