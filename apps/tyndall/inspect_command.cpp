@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "apps/tyndall/commands.h"
+#include "apps/tyndall/inspect/direction_maps.h"
 #include "apps/tyndall/inspect/distance_curves.h"
 #include "apps/tyndall/inspect/visibility_picture.h"
 #include "apps/tyndall/parse_values.h"
@@ -22,6 +23,7 @@ struct InspectArguments {
   std::vector<std::string> outputs;
   std::optional<Vec2i> pixel;
   std::optional<uint32_t> light;
+  std::optional<float> at;
 };
 
 GuidingFile read_file(const std::string& path) {
@@ -66,9 +68,25 @@ void print_statistics(const GuidingFile& file) {
 void check_arguments(const InspectArguments& a) {
   if (a.pixel && a.scene.empty()) throw UsageError("--pixel needs --scene");
   if (!a.scene.empty() && !a.pixel) throw UsageError("--scene needs --pixel");
+  if (a.at && !a.pixel) throw UsageError("--at needs --pixel");
   if ((a.pixel || a.light) && a.outputs.empty())
     throw UsageError("a picture needs -o FILE");
   check_outputs(a.outputs);
+}
+
+// What a picture's title and the terminal say of a density and of the one it improves on.
+std::string variances(float learned, float without, const char* name_of_other) {
+  if (learned < 0) return "no light of this lamp arrives";
+  return fmt::format("relative variance {:.3g} learned, {:.3g} {}", learned, without,
+                     name_of_other);
+}
+
+Image directions_picture(const InspectArguments& a, const DirectionMaps& maps) {
+  const std::string found =
+      variances(maps.learned_variance, maps.joint_variance, "by joint sampling");
+  fmt::print("light {}: directions: {}\n", maps.light, found);
+  return draw_direction_maps(maps, fmt::format("directions at {:g} along pixel {},{}: {}",
+                                               *a.at, a.pixel->x, a.pixel->y, found));
 }
 
 Image pixel_picture(const InspectArguments& a, const GuidingFile& file) {
@@ -82,16 +100,14 @@ Image pixel_picture(const InspectArguments& a, const GuidingFile& file) {
   const Vec2 p_film{static_cast<float>(a.pixel->x) + 0.5f,
                     static_cast<float>(a.pixel->y) + 0.5f};
   const Ray ray = scene.camera().ray(p_film, {0.5f, 0.5f});
-  const DistanceCurves curves = distance_curves(
-      scene, file, ray, a.light ? std::optional<size_t>(*a.light) : std::nullopt);
-  fmt::print(
-      "light {}: relative variance of one sample {:.3g} learned, {:.3g} without "
-      "visibility\n",
-      curves.light, curves.learned_variance, curves.equiangular_variance);
+  const auto light = a.light ? std::optional<size_t>(*a.light) : std::nullopt;
+  if (a.at) return directions_picture(a, direction_maps(scene, file, ray, *a.at, light));
+  const DistanceCurves curves = distance_curves(scene, file, ray, light);
+  const std::string found =
+      variances(curves.learned_variance, curves.equiangular_variance, "without visibility");
+  fmt::print("light {}: distances: {}\n", curves.light, found);
   return draw_plot(
-      fmt::format("pixel {},{}, light {}: relative variance {:.3g} learned, {:.3g} without",
-                  a.pixel->x, a.pixel->y, curves.light, curves.learned_variance,
-                  curves.equiangular_variance),
+      fmt::format("pixel {},{}, light {}: {}", a.pixel->x, a.pixel->y, curves.light, found),
       "distance along the ray [scene units]", "density [1/unit]",
       {curves.truth, curves.equiangular, curves.learned});
 }
@@ -137,6 +153,10 @@ void add_inspect_command(Program& program) {
           "draw the learned density of distances along this pixel's ray beside the true "
           "single scattering, by brute force",
           {.value = "X,Y"})
+      .option("--at", &a->at,
+              "draw the directions of two scattering events instead: those learned for the "
+              "first at this distance along the pixel's ray, beside the true light",
+              {.value = "T"})
       .footer(
           "Example:\n  tyndall render fog.pbrt --integrator learned --dump-guiding "
           "fog.guide\n  tyndall inspect fog.guide --scene fog.pbrt --pixel 64,64 -o "

@@ -37,10 +37,18 @@ class InspectTest(ProgramTest):
         result = self.inspect("a.guide", "--scene", "fog.pbrt", "--pixel", "8,4", "-o", "d.png")
         self.assertEqual(result.returncode, 0, result.stderr)
         learned, without = map(float, re.search(
-            r"^light 0: relative variance of one sample ([\d.e-]+) learned, ([\d.e-]+) without ",
+            r"^light 0: distances: relative variance ([\d.e-]+) learned, ([\d.e-]+) without ",
             result.stdout, re.MULTILINE).groups())
         self.assertLess(learned, without)
-        for name in ("map.png", "d.png"):
+        result = self.inspect("a.guide", "--scene", "fog.pbrt", "--pixel", "8,4", "--at", "3",
+                              "-o", "w.png")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        learned, joint = map(float, re.search(
+            r"^light 0: directions: relative variance ([\d.e-]+) learned, ([\d.e-]+) by joint ",
+            result.stdout, re.MULTILINE).groups())
+        self.assertGreater(learned, 0)
+        self.assertGreater(joint, 0)
+        for name in ("map.png", "d.png", "w.png"):
             self.assertEqual((self.folder / name).read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
 
     def test_wrong_files(self):
@@ -59,6 +67,7 @@ class InspectTest(ProgramTest):
         for arguments, message in (
                 (["--pixel", "1,1", "-o", "d.png"], "--pixel needs --scene"),
                 (["--scene", "fog.pbrt", "-o", "d.png"], "--scene needs --pixel"),
+                (["--at", "2", "-o", "d.png"], "--at needs --pixel"),
                 (["--light", "0"], "a picture needs -o FILE"),
                 (["--light", "7", "-o", "d.png"], "--light: there is no map of light 7"),
                 (["--scene", "fog.pbrt", "--pixel", "16,0", "-o", "d.png"],

@@ -4,21 +4,13 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "tyndall/integrators/connection_leg.h"
+#include "apps/tyndall/inspect/known_guiding.h"
 #include "tyndall/integrators/vertex.h"
 
 namespace tyndall::app {
 namespace {
 
 constexpr int points = 800, light_samples = 32;
-
-ConnectionSettings settings_with(const GuidingFile* file) {
-  ConnectionSettings settings{.single = true, .min_distance_ratio = 1};
-  if (!file) return settings;
-  settings.visibility = true;
-  settings.known_visibility = std::make_shared<const LightVisibility>(file->maps);
-  return settings;
-}
 
 // What arrives at the ray's origin from a point of the ray, by way of one light.
 float single_scattering(const Scene& scene, const ConnectionLeg& leg, float t,
@@ -71,8 +63,8 @@ Curve density_curve(const std::string& label, Rgb color, const std::vector<float
 
 DistanceCurves distance_curves(const Scene& scene, const GuidingFile& file, const Ray& ray,
                                std::optional<size_t> light) {
-  const ConnectionContext learned(scene, settings_with(&file)),
-      plain(scene, settings_with(nullptr));
+  const ConnectionContext learned(scene, known_guiding(&file)),
+      plain(scene, known_guiding(nullptr));
   const Pivots pivots(scene, 1);
   Leg leg(scene, ray, scene.camera_medium());
   ConnectionLeg learned_leg(learned, pivots, leg), plain_leg(plain, pivots, leg);

@@ -15,7 +15,8 @@ struct DistanceCurves {
   Curve truth = {};        ///< the single scattering integrand by brute force, normalised
   Curve learned = {};      ///< what is sampled with the visibility of the file
   Curve equiangular = {};  ///< the same without visibility
-  float learned_variance = {};      ///< relative, of one sample; the light is averaged over
+  float learned_variance = {};  ///< relative, of one sample; the light is averaged over;
+                                ///< -1 if no light arrives
   float equiangular_variance = {};  ///< the same without visibility
 };
 
