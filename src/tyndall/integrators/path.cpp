@@ -46,7 +46,8 @@ void Path::look_at_end(Leg& leg) {
   medium_ = leg.end_medium();
   if (const SurfaceHit* hit = leg.end()) {
     add_surface_emission(*hit);
-    if (set_vertex(Vertex(*hit, -ray_.d, medium_), hit->t)) connect_vertex();
+    vertex_.emplace(*hit, -ray_.d, medium_);
+    if (arrive(hit->t)) connect_vertex();
     vertex_.reset();
     depth_ = 0;
   } else {
@@ -64,7 +65,8 @@ bool Path::advance(Leg& leg) {
     medium_ = span->medium;
     if (const std::optional<float> t = sample_collision(leg.ray(), *span)) {
       ++order_;
-      return set_vertex(Vertex(leg.ray().at(*t), -ray_.d, span->medium), *t);
+      vertex_.emplace(leg.ray().at(*t), -ray_.d, span->medium);
+      return arrive(*t);
     }
     if (is_black(beta_)) return false;
   }
@@ -75,16 +77,17 @@ bool Path::advance(Leg& leg) {
     return false;
   }
   if (!saw_end_) add_surface_emission(*hit);
-  return set_vertex(Vertex(*hit, -ray_.d, medium_), hit->t);
+  vertex_.emplace(*hit, -ray_.d, medium_);
+  return arrive(hit->t);
 }
 
-bool Path::set_vertex(const Vertex& vertex, float t) {
-  vertex_ = vertex;
+// At vertex_, which stands at distance t along the leg. False if the path ends there.
+bool Path::arrive(float t) {
   t_vertex_ = t;
-  chain_ = chain_to(vertex, t);
+  chain_ = chain_to(*vertex_, t);
   if (depth_ == 0) {
-    result_.albedo = vertex.albedo();
-    result_.normal = vertex.normal();
+    result_.albedo = vertex_->albedo();
+    result_.normal = vertex_->normal();
     result_.depth = t;
   }
   ++depth_;

@@ -74,7 +74,7 @@ class Path {
   void add_glow(Leg& leg);
   void add_surface_emission(const SurfaceHit& hit);
   void add_environment();
-  bool set_vertex(const Vertex& vertex, float t);
+  bool arrive(float t);
   bool survives_roulette();
   void add(Rgb contribution) { result_.L += contribution / average(spectral_); }
 

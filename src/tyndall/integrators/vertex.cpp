@@ -31,7 +31,11 @@ std::optional<DirectionSample> Vertex::sample(Sampler& sampler) const {
     if (!s) return std::nullopt;
     return DirectionSample{s->wi, s->value, s->pdf, false, 1};
   }
-  const float u_lobe = sampler.next_1d();
+  float u_lobe = 0;
+  if (bsdf_->chooses_lobe())
+    u_lobe = sampler.next_1d();
+  else
+    sampler.skip();
   const std::optional<BsdfSample> s = bsdf_->sample(wo_, u_lobe, sampler.next_2d());
   if (!s || !(s->pdf > 0)) return std::nullopt;
   return DirectionSample{s->wi, s->value, s->pdf, s->is_specular, s->eta};

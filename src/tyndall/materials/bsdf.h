@@ -88,6 +88,8 @@ class Bsdf {
   float pdf(Vec3 wo, Vec3 wi) const { return evaluate(wo, wi).pdf; }
   /// Draws wi in rough proportion to eval(). Empty if the light is absorbed.
   std::optional<BsdfSample> sample(Vec3 wo, float u_lobe, Vec2 u) const;
+  /// Whether sample() looks at u_lobe.
+  bool chooses_lobe() const { return std::holds_alternative<DielectricBsdf>(*material_); }
   bool is_specular() const;
   /// Reflectance for the albedo layer: exact for diffuse surfaces, the Fresnel reflectance
   /// of a smooth metal, and one for glass, which absorbs nothing.
