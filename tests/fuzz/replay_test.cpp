@@ -17,7 +17,7 @@ std::string messages_of(const std::string& path) {
   std::string text;
   try {
     for (const Diagnostic& warning : load_scene(path).warnings) text += warning.text + "\n";
-  } catch (const SceneError& error) {
+  } catch (const std::runtime_error& error) {
     text = std::string(error.what()) + "\n";
   }
   return text;
