@@ -102,21 +102,41 @@ TEST_P(PlacedGridTest, MajorantsHoldWithoutClamping) {
   }
 }
 
+// How much the density may change for rounding: the medium finds a point of the world in
+// its own space by a product of matrices, each sum of which may be off by two units of
+// roundoff of its terms, and the density changes at most by `maximum` from one sample to
+// the next.
+double rounding_error(const Transform& world_from_medium, Vec3 p_world, Vec3i resolution,
+                      double maximum) {
+  const double roundoff = 0.5 * double{std::numeric_limits<float>::epsilon()};
+  const int counts[] = {resolution.x, resolution.y, resolution.z};
+  double samples = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto& row = world_from_medium.inverse_matrix()[static_cast<size_t>(axis)];
+    double terms = std::abs(double{row[3]}) + std::abs(double{box.min[axis]});
+    for (int k = 0; k < 3; ++k)
+      terms += std::abs(double{row[static_cast<size_t>(k)]} * double{p_world[k]});
+    samples += 2 * roundoff * terms * counts[axis] / double{box.diagonal()[axis]};
+  }
+  return maximum * (samples + 2 * roundoff);
+}
+
 TEST_P(PlacedGridTest, InterpolatesAsDefined) {
   RandomStream rng(hash(3, content(), placement(), start()));
   const DensityGrid grid = random_grid(rng, {21, 9, 14}, content());
   const Transform world_from_medium = random_transform(rng, placement());
   const GridMedium medium = make_medium(grid, world_from_medium);
-  const float maximum = largest_value(grid);
-  // A position in float is off by its rounding error times the steepest slope.
-  const double tolerance = placement() == Placement::far_away ? 5e-2 : 1e-4;
+  const double maximum = double{largest_value(grid)};
   for (int i = 0; i < 200; ++i) {
     const Vec3 p =
         box.min + box.diagonal() * Vec3{rng.next_1d(), rng.next_1d(), rng.next_1d()};
-    const double expected = reference_density(grid, box, p);
-    const MediumProperties found = medium.at(world_from_medium.point(p));
-    EXPECT_NEAR(found.sigma_s.g, 2 * expected, tolerance * double{maximum});
-    EXPECT_NEAR(found.sigma_a.r, 0.5 * expected, tolerance * double{maximum});
+    const Vec3 p_world = world_from_medium.point(p);
+    const double expected = reference_density(grid, box, world_from_medium, p_world);
+    const double error =
+        rounding_error(world_from_medium, p_world, grid.resolution, maximum);
+    const MediumProperties found = medium.at(p_world);
+    EXPECT_NEAR(found.sigma_s.g, 2 * expected, 2 * error);
+    EXPECT_NEAR(found.sigma_a.r, 0.5 * expected, 0.5 * error);
     EXPECT_EQ(found.sigma_s.b, 0);
   }
 }

@@ -39,8 +39,16 @@ float largest_value(const DensityGrid& grid) {
 
 namespace {
 
+// Draws are statements of their own here: in which order arguments and operands are
+// evaluated is the compiler's choice, and all compilers are to run the same tests.
+
+Vec3 random_direction(RandomStream& rng) {
+  const float cos_theta = uniform(rng, -1, 1);
+  return spherical_direction(cos_theta, uniform(rng, 0, 2 * pi));
+}
+
 Transform random_rotation(RandomStream& rng) {
-  const Vec3 axis = spherical_direction(uniform(rng, -1, 1), uniform(rng, 0, 2 * pi));
+  const Vec3 axis = random_direction(rng);
   return Transform::rotate(uniform(rng, 0, 360), axis);
 }
 
@@ -60,8 +68,10 @@ Transform random_transform(RandomStream& rng, Placement placement) {
       return {};
     case Placement::rotated:
       return Transform::translate({3, -2, 1}) * random_rotation(rng);
-    case Placement::sheared:
-      return random_rotation(rng) * random_shear(rng) * Transform::scale({1, 2, 0.5f});
+    case Placement::sheared: {
+      const Transform rotation = random_rotation(rng);
+      return rotation * random_shear(rng) * Transform::scale({1, 2, 0.5f});
+    }
     case Placement::mirrored:
       return random_rotation(rng) * Transform::scale({-1.5f, 0.7f, 1});
     case Placement::tiny:
@@ -82,10 +92,10 @@ Ray random_ray(RandomStream& rng, RayStart start, const Bounds3& bounds,
   };
   Vec3 o = inside(), target = inside();
   if (start == RayStart::border) o.y = bounds.max.y;
-  if (start == RayStart::outside)
-    o = bounds.center() +
-        spherical_direction(uniform(rng, -1, 1), uniform(rng, 0, 2 * pi)) *
-            (uniform(rng, 1, 4) * bounds.radius());
+  if (start == RayStart::outside) {
+    const Vec3 direction = random_direction(rng);
+    o = bounds.center() + direction * (uniform(rng, 1, 4) * bounds.radius());
+  }
   if (start == RayStart::parallel_to_axis) {
     target = o;
     o.z = bounds.min.z - bounds.radius();
@@ -133,8 +143,16 @@ double interpolate(const DensityGrid& grid, const Bounds3& bounds, Vec3d p) {
 
 }  // namespace
 
-double reference_density(const DensityGrid& grid, const Bounds3& bounds, Vec3 p_medium) {
-  return interpolate(grid, bounds, {{p_medium.x, p_medium.y, p_medium.z}});
+double reference_density(const DensityGrid& grid, const Bounds3& bounds,
+                         const Transform& world_from_medium, Vec3 p_world) {
+  Vec3d p{};
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto& row = world_from_medium.inverse_matrix()[static_cast<size_t>(axis)];
+    p.x[axis] = double{row[3]};
+    for (int k = 0; k < 3; ++k)
+      p.x[axis] += double{row[static_cast<size_t>(k)]} * double{p_world[k]};
+  }
+  return interpolate(grid, bounds, p);
 }
 
 double reference_optical_depth(const DensityGrid& grid, const Bounds3& bounds,

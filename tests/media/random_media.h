@@ -47,8 +47,9 @@ inline constexpr RayStart all_ray_starts[] = {RayStart::outside, RayStart::insid
 Ray random_ray(RandomStream& rng, RayStart start, const Bounds3& bounds,
                const Transform& world_from_medium);
 
-/// The interpolant as its definition says, in medium space.
-double reference_density(const DensityGrid& grid, const Bounds3& bounds, Vec3 p_medium);
+/// The interpolant as its definition says, at a point of the world.
+double reference_density(const DensityGrid& grid, const Bounds3& bounds,
+                         const Transform& world_from_medium, Vec3 p_world);
 
 /// The exact integral of the interpolant along a ray of world space up to t_max.
 double reference_optical_depth(const DensityGrid& grid, const Bounds3& bounds,

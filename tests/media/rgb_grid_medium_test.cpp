@@ -56,7 +56,7 @@ TEST_F(RgbGridTest, InterpolatesEachChannel) {
       const auto expected = [&](const RgbGrid& grid, float scale) {
         RgbGrid zero = grid;
         for (Rgb& v : zero.values) v = Rgb(0);
-        return reference_density(sum_of_channel(grid, zero, c, scale), box, p);
+        return reference_density(sum_of_channel(grid, zero, c, scale), box, Transform(), p);
       };
       EXPECT_NEAR(found.sigma_a[c], expected(sigma_a_, 0.5f), 1e-4);
       EXPECT_NEAR(found.sigma_s[c], expected(sigma_s_, 0.5f), 1e-4);
