@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tyndall/image/whole_file.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -45,6 +47,46 @@ TEST(WholeFileTest, CheckLeavesNothingBehind) {
   write_whole_file(folder.file("a"), "kept");
   check_can_write_file(folder.file("a"));
   EXPECT_EQ(read_whole_file(folder.file("a")), "kept");
+}
+
+TEST(WholeFileTest, WritesThroughLinks) {
+  namespace fs = std::filesystem;
+  const TemporaryFolder folder;
+  fs::create_directory(folder.file("there"));
+  fs::create_symlink("there/b", folder.file("a"));  // leads to nothing yet
+  fs::create_symlink(folder.file("a"), folder.file("there/c"));
+  for (const std::string bytes : {"first", "second"}) {
+    const std::string link = folder.file("there/c");
+    check_can_write_file(link);
+    write_whole_file(link, bytes);
+    EXPECT_TRUE(fs::is_symlink(link) && fs::is_symlink(folder.file("a")));
+    EXPECT_FALSE(fs::is_symlink(folder.file("there/b")));
+    EXPECT_EQ(read_whole_file(folder.file("there/b")), bytes);
+  }
+  EXPECT_EQ(folder.file_count(), 2u);
+}
+
+TEST(WholeFileTest, RefusesLinksInACircle) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("a");
+  std::filesystem::create_symlink("a", path);
+  const std::string expected = path + ": cannot write: Too many levels of symbolic links";
+  EXPECT_EQ(message_of([&] { write_whole_file(path, "x"); }), expected);
+  EXPECT_EQ(message_of([&] { check_can_write_file(path); }), expected);
+}
+
+TEST(WholeFileTest, WritesIntoPipes) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("a");
+  ASSERT_EQ(::mkfifo(path.c_str(), 0600), 0);
+  const int reader = ::open(path.c_str(), O_RDWR | O_NONBLOCK);
+  check_can_write_file(path);
+  write_whole_file(path, "x");
+  char byte = '\0';
+  EXPECT_EQ(::read(reader, &byte, 1), 1);
+  EXPECT_EQ(byte, 'x');
+  ::close(reader);
+  EXPECT_EQ(folder.file_count(), 1u);
 }
 
 TEST(WholeFileTest, ReportsMissingPermission) {

@@ -10,6 +10,7 @@
 #include <atomic>
 #include <cerrno>
 #include <cstdio>
+#include <filesystem>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
@@ -40,6 +41,25 @@ class File {
  private:
   int descriptor_;
 };
+
+/// What a path names once symbolic links are followed; it need not exist.
+std::string follow_links(const std::string& path) {
+  constexpr int most_links = 40;  // as Linux allows
+  std::filesystem::path end = path;
+  for (int i = 0; i <= most_links; ++i) {
+    std::error_code error;
+    const std::filesystem::path target = std::filesystem::read_symlink(end, error);
+    if (error) return end.string();
+    end = end.parent_path() / target;
+  }
+  fail(path, "write", ELOOP);
+}
+
+/// Pipes and devices cannot be replaced by a file: what is written goes into them.
+bool is_pipe_or_device(const std::string& path) {
+  struct stat status;
+  return ::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode);
+}
 
 std::string temporary_name(const std::string& path) {
   static std::atomic<unsigned> counter{0};
@@ -86,11 +106,18 @@ std::string read_whole_file(const std::string& path) {
 
 void write_whole_file(const std::string& path, std::string_view bytes) {
   check_is_no_folder(path);
-  const std::string temporary = temporary_name(path);
+  if (is_pipe_or_device(path)) {
+    File file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
+    if (!file.is_open() || !write_all(file, bytes) || !file.close())
+      fail(path, "write", errno);
+    return;
+  }
+  const std::string end = follow_links(path);
+  const std::string temporary = temporary_name(end);
   File file = create(temporary);
   if (!file.is_open()) fail(path, "write", errno);
   if (!write_all(file, bytes) || !file.close() ||
-      ::rename(temporary.c_str(), path.c_str()) != 0) {
+      ::rename(temporary.c_str(), end.c_str()) != 0) {
     const int error = errno;
     ::unlink(temporary.c_str());
     fail(path, "write", error);
@@ -99,7 +126,11 @@ void write_whole_file(const std::string& path, std::string_view bytes) {
 
 void check_can_write_file(const std::string& path) {
   check_is_no_folder(path);
-  const std::string temporary = temporary_name(path);
+  if (is_pipe_or_device(path)) {
+    if (::access(path.c_str(), W_OK) != 0) fail(path, "write", errno);
+    return;
+  }
+  const std::string temporary = temporary_name(follow_links(path));
   const File file = create(temporary);
   if (!file.is_open()) fail(path, "write", errno);
   ::unlink(temporary.c_str());

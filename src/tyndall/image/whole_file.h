@@ -10,7 +10,8 @@ namespace tyndall {
 std::string read_whole_file(const std::string& path);
 
 /// Writes to a temporary name in the same folder and renames it to `path`, so that no
-/// reader ever sees half a file and a failure leaves an older file as it was. Throws
+/// reader ever sees half a file and a failure leaves an older file as it was. Symbolic
+/// links stay, and what they lead to is written; so are pipes and devices, in place. Throws
 /// std::runtime_error: "PATH: cannot write: REASON".
 void write_whole_file(const std::string& path, std::string_view bytes);
 
