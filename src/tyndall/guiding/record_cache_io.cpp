@@ -117,7 +117,7 @@ std::optional<RecordCache> RecordCache::load(ByteReader& in, RecordCacheSettings
   float power = 0;
   for (const LightCluster& c : *clusters) power += c.power;
   if (!clusters->empty() && !(power > 0)) return std::nullopt;
-  RecordCache cache(std::move(*clusters), std::move(settings));
+  RecordCache cache(std::move(*clusters), settings);
   if (!cache.read(in)) return std::nullopt;
   return cache;
 }
