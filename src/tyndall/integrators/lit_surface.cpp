@@ -22,12 +22,26 @@ Bounds3 bounds_of_interest(const Scene& scene) {
   return box.is_empty() || !(box.radius() > 0) ? scene.bounds() : box;
 }
 
+using Squares = std::vector<std::optional<EmissionSquare>>;
+
+Squares squares_of(const Scene& scene) {
+  const bool is_parallel = std::ranges::any_of(scene.lights(), [](const Light& l) {
+    return l.is_infinite() && !l.is_environment();
+  });
+  const Bounds3 box = is_parallel ? bounds_of_interest(scene) : Bounds3{};
+  Squares squares;
+  for (const Light& light : scene.lights())
+    squares.push_back(EmissionSquare::of(light, box, scene.bounds()));
+  return squares;
+}
+
 // Before anything is learned, a walk over one more surface is tried half as often.
-std::vector<float> powers(const Scene& scene, int max_surfaces) {
+std::vector<float> powers(const Scene& scene, const Squares& squares, int max_surfaces) {
   std::vector<float> powers;
-  for (const Light& light : scene.lights()) {
-    float power =
-        light.is_environment() ? 0 : luminance(light.power(scene.bounds().radius()));
+  for (size_t light = 0; light < squares.size(); ++light) {
+    float power = squares[light]
+                      ? luminance(scene.lights()[light].power(scene.bounds().radius()))
+                      : 0;
     for (int i = 0; i < max_surfaces; ++i, power *= 0.5f) powers.push_back(power);
   }
   return powers;
@@ -52,14 +66,9 @@ float diffuse_edge_density(Vec3 ng0, Vec3 ng1, Vec3 w, float distance) {
 LitSurfaceSampling::LitSurfaceSampling(const Scene& scene, int max_surfaces)
     : scene_(&scene),
       max_surfaces_(max_surfaces),
-      learned_(powers(scene, max_surfaces), max_bytes) {
+      squares_(squares_of(scene)),
+      learned_(powers(scene, squares_, max_surfaces), max_bytes) {
   assert(1 <= max_surfaces && max_surfaces <= max_lit_surfaces);
-  const bool is_parallel = std::ranges::any_of(scene.lights(), [](const Light& l) {
-    return l.is_infinite() && !l.is_environment();
-  });
-  const Bounds3 box = is_parallel ? bounds_of_interest(scene) : Bounds3{};
-  for (const Light& light : scene.lights())
-    squares_.push_back(EmissionSquare::of(light, box, scene.bounds()));
 }
 
 bool LitSurfaceSampling::finds(const Surface& surface) {
