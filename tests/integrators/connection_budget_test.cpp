@@ -121,6 +121,37 @@ TEST(ConnectionBudget, GivesUpWhatGainsNothing) {
   EXPECT_FALSE(pays(1, 1, 1.1f));  // 1.2 times, 8 to 5
 }
 
+// One path in a thousand finds a lamp: that they vary more than was seen is likely.
+TEST(ConnectionBudget, IsCarefulWithHeavyTails) {
+  for (const bool is_rare : {false, true}) {
+    ConnectionBudget budget(1, size);
+    for (int i = 0; i < 5000; ++i) {
+      const float sign = i % 2 == 0 ? 1.0f : -1.0f;
+      // Both sorts of plain paths have the variance 1.
+      const float plain = is_rare ? (i % 1000 == 0 ? 32.6f : 0.97f) : 1 + sign;
+      budget.record_path(0, {.value = 1 + sign, .legs = 1, .spent = 3});
+      budget.record_plain_path(0, {.value = plain, .legs = 1});
+    }
+    budget.update();
+    EXPECT_EQ(budget.pays(), is_rare);
+  }
+}
+
+TEST(ConnectionBudget, DecidesOnce) {
+  ConnectionBudget budget(1, size);
+  const auto trial = [&](float with) {
+    for (int i = 0; i < 5000; ++i) {
+      const float sign = i % 2 == 0 ? 1.0f : -1.0f;
+      budget.record_path(0, {.value = 1 + sign * with, .legs = 1, .spent = 3});
+      budget.record_plain_path(0, {.value = 1 + sign, .legs = 1});
+    }
+    budget.update();
+    return budget.pays();
+  };
+  EXPECT_TRUE(trial(0.1f));
+  EXPECT_TRUE(trial(2));
+}
+
 TEST(ConnectionBudget, DoesNotJudgeByFewPaths) {
   ConnectionBudget budget(1, size);
   for (int i = 0; i < 3999; ++i) {

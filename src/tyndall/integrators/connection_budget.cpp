@@ -20,6 +20,7 @@ constexpr double leg_cost = 2.5, possible_cost = 1;
 constexpr double least_efficiency = 0.9, great_gain = 1.5,
                  least_efficiency_of_great_gain = 0.75;
 constexpr double least_paths = 4000;  // to judge by
+constexpr double tail_errors = 3;     // standard errors of the variance of plain paths
 
 // A connection that seems worthless may still be all that finds something rare; most of
 // what a pixel sees happens on the first leg.
@@ -41,6 +42,7 @@ constexpr double cost_unit = 1.0 / 16;
 // Records, relative to the mean radiance or its square, are kept in these units and
 // clamped: one firefly must not decide.
 constexpr double unit = 1e-8, largest = 1e4;
+constexpr double fourth_unit = 1e-4;  // of the squares of squares
 
 int64_t quantize(double value) {
   return std::isfinite(value) ? static_cast<int64_t>(std::min(value, largest) / unit) : 0;
@@ -111,7 +113,10 @@ void ConnectionBudget::record_path(size_t region, const Finished& path) const {
 
 void ConnectionBudget::record_plain_path(size_t region, const Finished& path) const {
   Tally& plain = regions_[region].plain;
-  add(plain.squares, quantize(sqr(double{path.value} * scale_)));
+  const int64_t square = quantize(sqr(double{path.value} * scale_));
+  add(plain.squares, square);
+  add(plain.fourths,
+      static_cast<int64_t>(sqr(static_cast<double>(square) * unit) / fourth_unit));
   add(plain.paths, 1);
   add(plain.cost, static_cast<int64_t>(leg_cost * path.legs / cost_unit));
 }
@@ -143,33 +148,43 @@ ConnectionBudget::Worth ConnectionBudget::worth() const {
 void ConnectionBudget::update() {
   const Worth now = worth();
   for (size_t i = 0; i < efforts * depths; ++i) update_cell(i, now);
-  pays_ = pays_ && is_worth_it(now);
-  for (Region& r : regions_) r.recent.squares = r.recent.paths = r.recent.cost = 0;
+  if (!is_decided_) decide(now);
+  for (Region& r : regions_)
+    r.recent.squares = r.recent.fourths = r.recent.paths = r.recent.cost = 0;
 }
 
 ConnectionBudget::Efficiency ConnectionBudget::efficiency(Tally Region::*tally,
                                                           const Worth& worth) const {
-  Efficiency sum{.variance = 0, .cost = 0, .paths = 0};
+  Efficiency sum{.variance = 0, .standard_error = 0, .cost = 0, .paths = 0};
+  double fourths = 0;
   for (size_t r = 0; r < regions_.size(); ++r) {
     const Tally& t = regions_[r].*tally;
     const auto n = static_cast<double>(t.paths);
     sum.variance += worth.weights[r] *
                     (static_cast<double>(t.squares) * unit - n * sqr(worth.means[r]));
+    fourths += sqr(worth.weights[r]) * static_cast<double>(t.fourths) * fourth_unit;
     sum.cost += static_cast<double>(t.cost) * cost_unit;
     sum.paths += n;
   }
   const double n = std::max(sum.paths, 1.0);
-  return {.variance = sum.variance / n, .cost = sum.cost / n, .paths = sum.paths};
+  return {.variance = sum.variance / n,
+          .standard_error = std::sqrt(fourths) / n,
+          .cost = sum.cost / n,
+          .paths = sum.paths};
 }
 
-bool ConnectionBudget::is_worth_it(const Worth& worth) const {
+// Of heavy tails the worst is seldom seen: where the variance of plain paths is not well
+// known, it is taken for as large as it may well be.
+void ConnectionBudget::decide(const Worth& worth) {
   const Efficiency with = efficiency(&Region::recent, worth);
   const Efficiency without = efficiency(&Region::plain, worth);
-  if (with.paths < least_paths || without.paths < least_paths) return true;
-  const double least = without.variance > great_gain * with.variance
+  if (with.paths < least_paths || without.paths < least_paths) return;
+  is_decided_ = true;
+  const double variance = without.variance + tail_errors * without.standard_error;
+  const double least = variance > great_gain * with.variance
                            ? least_efficiency_of_great_gain
                            : least_efficiency;
-  return without.variance * without.cost > least * with.variance * with.cost;
+  pays_ = variance * without.cost > least * with.variance * with.cost;
 }
 
 void ConnectionBudget::update_cell(size_t cell, const Worth& worth) {

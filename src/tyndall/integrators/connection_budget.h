@@ -64,8 +64,9 @@ class ConnectionBudget {
   /// A path without any connections ended.
   void record_plain_path(size_t region, const Finished& path) const;
 
-  /// Recomputes the counts from all that was recorded, and pays() from the paths since the
-  /// last update and all plain paths.
+  /// Recomputes the counts from all that was recorded. Decides pays(), once, as soon as
+  /// there are plain paths to compare the paths since the last update with: of two samples
+  /// of what is rare the larger seems to vary more, so later and larger ones are not asked.
   void update();
   /// Nothing more needs to be recorded.
   void end_recording() { is_recording_ = false; }
@@ -88,26 +89,26 @@ class ConnectionBudget {
     std::atomic<int64_t> squares = 0, visits = 0, variance = 0, pairs = 0;
   };
   struct Tally {
-    std::atomic<int64_t> squares = 0, paths = 0, cost = 0;
+    std::atomic<int64_t> squares = 0, fourths = 0, paths = 0, cost = 0;
   };
   struct Region {
     std::array<Cell, efforts * depths> cells;
     std::atomic<int64_t> radiance = 0, squares = 0, noise = 0, paths = 0, legs = 0;
     Tally recent, plain;
   };
-  // Mean variance and cost of a path.
+  // Mean variance and cost of a path; how well the variance is known.
   struct Efficiency {
-    double variance, cost, paths;
+    double variance, standard_error, cost, paths;
   };
   struct Worth;  // of a square that is recorded in a region, and of a unit of cost
   Worth worth() const;
   void update_cell(size_t cell, const Worth& worth);
   Efficiency efficiency(Tally Region::*tally, const Worth& worth) const;
-  bool is_worth_it(const Worth& worth) const;
+  void decide(const Worth& worth);
 
   double overhead_, scale_;
   Vec2i resolution_, size_;
-  bool is_recording_ = true, pays_ = true;
+  bool is_recording_ = true, is_decided_ = false, pays_ = true;
   mutable std::vector<Region> regions_;
   std::vector<std::array<float, efforts * depths>> counts_;
 };

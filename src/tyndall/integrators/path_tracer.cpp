@@ -17,7 +17,7 @@ constexpr uint32_t last_update = 64;
 // At this update, or at the second if directions are learned, paths without connections are
 // traced, to compare with.
 constexpr uint32_t trial_update = 4, trial_update_of_directions = 16;
-constexpr uint32_t trial_paths = 1 << 16;
+constexpr uint32_t trial_paths = 1 << 17;
 // What connections cost over what their rays cost: techniques are built for them, and bins
 // filled where it is predicted what lights see. Measured on the archetype scenes.
 constexpr double overhead = 1.2, overhead_of_visibility = 2.3;
