@@ -20,7 +20,7 @@ constexpr double leg_cost = 2.5, possible_cost = 1;
 constexpr double least_efficiency = 0.9, great_gain = 1.5,
                  least_efficiency_of_great_gain = 0.75;
 constexpr double least_paths = 4000;  // to judge by
-constexpr double tail_errors = 3;     // standard errors of the variance of plain paths
+constexpr double tail_errors = 5;     // standard errors of the variance of plain paths
 
 // A connection that seems worthless may still be all that finds something rare; most of
 // what a pixel sees happens on the first leg.
