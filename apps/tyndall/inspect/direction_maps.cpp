@@ -5,11 +5,11 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "apps/tyndall/inspect/brute_force.h"
 #include "apps/tyndall/inspect/known_guiding.h"
 #include "apps/tyndall/inspect/raster_plot.h"
 #include "tyndall/image/false_color.h"
 #include "tyndall/integrators/dual_direction.h"
-#include "tyndall/integrators/vertex.h"
 
 namespace tyndall::app {
 namespace {
@@ -46,30 +46,16 @@ class ScatteredLight {
     const Medium* medium = leg.proxy().medium_at(t);
     if (!medium) return 0;
     const Vertex vertex(leg.ray().at(t), -leg.ray().d, medium);
-    const Light& light = scene_->lights()[light_];
-    const std::optional<LightSample> sample = light.sample(vertex.p(), random.next_2d());
-    if (!sample || !(sample->pdf > 0)) return 0;
-    const Ray shadow = vertex.spawn(sample->wi);
-    const float t_max = sample->distance * 0.9999f;
-    if (scene_->is_occluded(shadow, t_max)) return 0;
-    const Rgb T = transmittance(*scene_, shadow, t_max, medium, random) *
-                  transmittance(*scene_, leg.ray(), t, start, random);
-    return luminance(medium->at(vertex.p()).sigma_s * vertex.eval(sample->wi) * T *
-                     sample->L) /
-           sample->pdf;
+    const Rgb scattered =
+        scattered_light(*scene_, vertex, *medium, scene_->lights()[light_], random);
+    const Rgb T = transmittance(*scene_, leg.ray(), t, start, random);
+    return luminance(medium->at(vertex.p()).sigma_s * T * scattered);
   }
 
   const Scene* scene_;
   const ConnectionContext* context_;
   size_t light_;
 };
-
-size_t likeliest_light(ConnectionLeg& leg, size_t lights) {
-  size_t best = 0;
-  for (size_t i = 1; i < lights; ++i)
-    if (leg.light_probability(i) > leg.light_probability(best)) best = i;
-  return best;
-}
 
 // Sums over the square for the relative variance of a density.
 struct SecondMoment {
@@ -105,12 +91,7 @@ DirectionMaps direction_maps(const Scene& scene, const GuidingFile& file, const 
   const Medium* medium = first.is_empty() ? nullptr : first.proxy().medium_at(t);
   if (!medium) throw std::invalid_argument("nothing scatters at this distance");
   DirectionMaps maps{
-      .light = light ? *light : likeliest_light(first, scene.lights().size()),
-      .truth = {},
-      .learned = {},
-      .joint = {}};
-  if (maps.light >= scene.lights().size() || !first.pivot(maps.light))
-    throw std::invalid_argument("there is no finite light of this number");
+      .light = shown_light(first, scene, light), .truth = {}, .learned = {}, .joint = {}};
   const Vec3 b = ray.at(t), pivot = *first.pivot(maps.light);
   const Vertex vertex(b, -ray.d, medium);
   const auto technique = [&](const ConnectionContext& context) {

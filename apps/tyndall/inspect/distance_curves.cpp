@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "apps/tyndall/inspect/brute_force.h"
 #include "apps/tyndall/inspect/known_guiding.h"
-#include "tyndall/integrators/vertex.h"
 
 namespace tyndall::app {
 namespace {
@@ -19,15 +19,8 @@ float single_scattering(const Scene& scene, const ConnectionLeg& leg, float t,
   if (!medium) return 0;
   const Vertex vertex(leg.ray().at(t), -leg.ray().d, medium);
   float sum = 0;
-  for (int i = 0; i < light_samples; ++i) {
-    const std::optional<LightSample> sample = light.sample(vertex.p(), random.next_2d());
-    if (!sample || !(sample->pdf > 0)) continue;
-    const Ray shadow = vertex.spawn(sample->wi);
-    const float t_max = sample->distance * 0.9999f;
-    if (scene.is_occluded(shadow, t_max)) continue;
-    const Rgb T = transmittance(scene, shadow, t_max, medium, random);
-    sum += luminance(vertex.eval(sample->wi) * T * sample->L) / sample->pdf;
-  }
+  for (int i = 0; i < light_samples; ++i)
+    sum += luminance(scattered_light(scene, vertex, *medium, light, random));
   const Rgb T = transmittance(scene, leg.ray(), t, scene.camera_medium(), random);
   return sum / light_samples * luminance(medium->at(vertex.p()).sigma_s * T);
 }
@@ -70,15 +63,7 @@ DistanceCurves distance_curves(const Scene& scene, const GuidingFile& file, cons
   ConnectionLeg learned_leg(learned, pivots, leg), plain_leg(plain, pivots, leg);
   if (learned_leg.is_empty())
     throw std::invalid_argument("the ray of this pixel meets no medium");
-  const size_t lights = scene.lights().size();
-  if (!light) {
-    light = 0;
-    for (size_t i = 1; i < lights; ++i)
-      if (learned_leg.light_probability(i) > learned_leg.light_probability(*light))
-        light = i;
-  }
-  if (*light >= lights || !learned_leg.pivot(*light))
-    throw std::invalid_argument("there is no finite light of this number");
+  light = shown_light(learned_leg, scene, light);
 
   const float t_min = learned_leg.proxy().t_min();
   const float t_max = learned_leg.proxy().distance_to(1e-3f);
