@@ -115,7 +115,7 @@ void ConnectionBudget::record_plain_path(size_t region, const Finished& path) co
   Tally& plain = regions_[region].plain;
   const int64_t square = quantize(sqr(double{path.value} * scale_));
   add(plain.squares, square);
-  add(plain.fourths,
+  add(regions_[region].plain_fourths,
       static_cast<int64_t>(sqr(static_cast<double>(square) * unit) / fourth_unit));
   add(plain.paths, 1);
   add(plain.cost, static_cast<int64_t>(leg_cost * path.legs / cost_unit));
@@ -149,28 +149,31 @@ void ConnectionBudget::update() {
   const Worth now = worth();
   for (size_t i = 0; i < efforts * depths; ++i) update_cell(i, now);
   if (!is_decided_) decide(now);
-  for (Region& r : regions_)
-    r.recent.squares = r.recent.fourths = r.recent.paths = r.recent.cost = 0;
+  for (Region& r : regions_) r.recent.squares = r.recent.paths = r.recent.cost = 0;
 }
 
 ConnectionBudget::Efficiency ConnectionBudget::efficiency(Tally Region::*tally,
                                                           const Worth& worth) const {
-  Efficiency sum{.variance = 0, .standard_error = 0, .cost = 0, .paths = 0};
-  double fourths = 0;
+  Efficiency sum{.variance = 0, .cost = 0, .paths = 0};
   for (size_t r = 0; r < regions_.size(); ++r) {
     const Tally& t = regions_[r].*tally;
     const auto n = static_cast<double>(t.paths);
     sum.variance += worth.weights[r] *
                     (static_cast<double>(t.squares) * unit - n * sqr(worth.means[r]));
-    fourths += sqr(worth.weights[r]) * static_cast<double>(t.fourths) * fourth_unit;
     sum.cost += static_cast<double>(t.cost) * cost_unit;
     sum.paths += n;
   }
   const double n = std::max(sum.paths, 1.0);
-  return {.variance = sum.variance / n,
-          .standard_error = std::sqrt(fourths) / n,
-          .cost = sum.cost / n,
-          .paths = sum.paths};
+  return {.variance = sum.variance / n, .cost = sum.cost / n, .paths = sum.paths};
+}
+
+// Of the variance of plain paths.
+double ConnectionBudget::standard_error(const Worth& worth, double paths) const {
+  double fourths = 0;
+  for (size_t r = 0; r < regions_.size(); ++r)
+    fourths += sqr(worth.weights[r]) * static_cast<double>(regions_[r].plain_fourths) *
+               fourth_unit;
+  return std::sqrt(fourths) / std::max(paths, 1.0);
 }
 
 // Of heavy tails the worst is seldom seen: where the variance of plain paths is not well
@@ -180,7 +183,8 @@ void ConnectionBudget::decide(const Worth& worth) {
   const Efficiency without = efficiency(&Region::plain, worth);
   if (with.paths < least_paths || without.paths < least_paths) return;
   is_decided_ = true;
-  const double variance = without.variance + tail_errors * without.standard_error;
+  const double variance =
+      without.variance + tail_errors * standard_error(worth, without.paths);
   const double least = variance > great_gain * with.variance
                            ? least_efficiency_of_great_gain
                            : least_efficiency;

@@ -89,21 +89,23 @@ class ConnectionBudget {
     std::atomic<int64_t> squares = 0, visits = 0, variance = 0, pairs = 0;
   };
   struct Tally {
-    std::atomic<int64_t> squares = 0, fourths = 0, paths = 0, cost = 0;
+    std::atomic<int64_t> squares = 0, paths = 0, cost = 0;
   };
   struct Region {
     std::array<Cell, efforts * depths> cells;
     std::atomic<int64_t> radiance = 0, squares = 0, noise = 0, paths = 0, legs = 0;
     Tally recent, plain;
+    std::atomic<int64_t> plain_fourths = 0;
   };
-  // Mean variance and cost of a path; how well the variance is known.
+  // Mean variance and cost of a path.
   struct Efficiency {
-    double variance, standard_error, cost, paths;
+    double variance, cost, paths;
   };
   struct Worth;  // of a square that is recorded in a region, and of a unit of cost
   Worth worth() const;
   void update_cell(size_t cell, const Worth& worth);
   Efficiency efficiency(Tally Region::*tally, const Worth& worth) const;
+  double standard_error(const Worth& worth, double paths) const;
   void decide(const Worth& worth);
 
   double overhead_, scale_;
