@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "support/volume_writer.h"
 #include "tyndall/media/volume_bricks.h"
 #include "tyndall/sampling/random.h"
 
@@ -34,7 +35,8 @@ class TemporaryFile {
   explicit TemporaryFile(const std::string& bytes)
       : path_(fs::temp_directory_path() /
               ("tyndall_volume_" + std::to_string(::getpid()) + "_" +
-               testing::UnitTest::GetInstance()->current_test_info()->name())) {
+               testing::UnitTest::GetInstance()->current_test_info()->name() +
+               std::to_string(count_++))) {
     std::ofstream(path_, std::ios::binary) << bytes;
   }
   ~TemporaryFile() { fs::remove(path_); }
@@ -43,6 +45,7 @@ class TemporaryFile {
   const fs::path& path() const { return path_; }
 
  private:
+  inline static int count_ = 0;
   fs::path path_;
 };
 
@@ -62,6 +65,28 @@ std::string complaint(const std::string& bytes) {
 float value_at(const PlacedGrid& grid, Vec3 p_medium) {
   const Vec3 p = grid.medium_from_grid.inverse().point(p_medium);
   return grid.box.contains(p) ? grid.grid->interpolate(p) : 0;
+}
+
+// Leaves that take many of Blosc's blocks: noise and zeros, whole and cut off blocks.
+TEST(VolumeFileTest, PackedGridsHoldTheSameVoxels) {
+  const TemporaryFile none(""), zip(""), blosc("");
+  RandomStream rng(3);
+  std::vector<test::TestVoxel> voxels = test::filled_box({0, 0, 0}, {80, 70, 60}, 0);
+  for (test::TestVoxel& v : voxels) v.value = v.at.x < 30 ? 1 : rng.next_1d();
+  test::write_nvdb(none.path(), {{.voxels = voxels}}, test::NvdbCodec::none);
+  test::write_nvdb(zip.path(), {{.voxels = voxels}}, test::NvdbCodec::zip);
+  test::write_nvdb(blosc.path(), {{.voxels = voxels}}, test::NvdbCodec::blosc);
+  const PlacedGrid a = read_volume(none.path(), density_name);
+  for (const fs::path& path : {zip.path(), blosc.path()}) {
+    const PlacedGrid b = read_volume(path, density_name);
+    ASSERT_EQ(a.grid->brick_count(), b.grid->brick_count());
+    for (const test::TestVoxel& v : voxels) {
+      const Vec3 p{static_cast<float>(v.at.x), static_cast<float>(v.at.y),
+                   static_cast<float>(v.at.z)};
+      ASSERT_EQ(value_at(a, p), value_at(b, p)) << path << " " << v.at.x;
+    }
+    EXPECT_NEAR(value_at(b, {75, 40, 33}), voxels[(33 * 71 + 40) * 81 + 75].value, 1e-4f);
+  }
 }
 
 class SharedVolumes : public testing::Test {

@@ -98,17 +98,13 @@ class GridImage {
     return *reinterpret_cast<const nanovdb::NanoGrid<Build>*>(memory_.data());
   }
 
-  // Reads all but the leaves, or all if leaves do not lie in a row
-  // or cannot be read one by one.
+  // Reads all but the leaves, or all if leaves do not lie in a row.
   template <typename Build>
   void read_directory() {
     using Leaf = typename nanovdb::NanoGrid<Build>::TreeType::LeafNodeType;
     const auto& header = grid<Build>();
     directory_size_ = memory_.size();
-    // What Blosc packed it unpacks in one go.
-    const bool is_stream = entry_.codec != 2;
-    if (is_stream && header.template isSequential<Leaf>() &&
-        header.tree().nodeCount(0) > 0) {
+    if (header.template isSequential<Leaf>() && header.tree().nodeCount(0) > 0) {
       leaf_count_ = header.tree().nodeCount(0);
       const auto* tree = reinterpret_cast<const std::byte*>(&header.tree());
       directory_size_ =

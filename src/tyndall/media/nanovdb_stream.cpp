@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tyndall/media/nanovdb_stream.h"
 
-#include <blosc.h>
 #include <fmt/format.h>
 #include <zlib.h>
 
@@ -10,6 +9,8 @@
 #include <cstring>
 #include <stdexcept>
 #include <vector>
+
+#include "tyndall/media/blosc_chunk.h"
 
 namespace tyndall {
 namespace {
@@ -41,6 +42,8 @@ class Packed {
   }
   void read(void* to, uint64_t size) {
     if (size > left_) fail_damaged();
+    if (resume_at_ > 0) file_.seekg(static_cast<std::streamoff>(resume_at_));
+    resume_at_ = 0;
     read_bytes(file_, to, size);
     left_ -= size;
   }
@@ -51,10 +54,21 @@ class Packed {
     if (size > left_) fail_damaged();
     return size;
   }
+  // Passes over so many bytes, which are read later.
+  BloscChunk::ReadAt part(uint64_t size) {
+    const auto begin = static_cast<uint64_t>(file_.tellg());
+    left_ -= size;
+    resume_at_ = begin + size;
+    return [&file = file_, begin](uint64_t offset, std::span<std::byte> to) {
+      file.seekg(static_cast<std::streamoff>(begin + offset));
+      read_bytes(file, to.data(), to.size());
+    };
+  }
 
  private:
   std::ifstream& file_;
   uint64_t left_;
+  uint64_t resume_at_ = 0;  // if not 0: where to go on in the file
 };
 
 class PlainSource : public NanoVdbStream::Source {
@@ -119,57 +133,32 @@ class ZipSource : public NanoVdbStream::Source {
   bool is_at_end_ = false;
 };
 
-// Chunks that are unpacked as a whole or, to look at their first bytes, in part.
 class BloscSource : public NanoVdbStream::Source {
  public:
   BloscSource(Packed packed, uint64_t size) : packed_(packed), left_(size) {}
 
   void read(std::span<std::byte> to) override {
     while (!to.empty()) {
-      if (done_ == chunk_size_) next_chunk();
-      const size_t count = std::min(to.size(), chunk_size_ - done_);
-      if (count == chunk_size_)
-        unpack_all(to.data());
-      else
-        unpack_part(to.data(), count);
+      if (chunk_.left() == 0) next_chunk();
+      const size_t count = std::min(to.size(), chunk_.left());
+      chunk_.read(to.first(count));
       to = to.subspan(count);
     }
   }
 
  private:
-  void unpack_all(std::byte* to) {
-    const int count = blosc_decompress_ctx(chunk_.data(), to, chunk_size_, 1);
-    if (count != static_cast<int>(chunk_size_)) fail_damaged();
-    done_ = chunk_size_;
-    chunk_ = {};
-  }
-
-  void unpack_part(std::byte* to, size_t size) {
-    size_t item = 0;
-    int flags = 0;
-    blosc_cbuffer_metainfo(chunk_.data(), &item, &flags);
-    if (item == 0 || done_ % item != 0 || size % item != 0) fail_damaged();
-    const int count = blosc_getitem(chunk_.data(), static_cast<int>(done_ / item),
-                                    static_cast<int>(size / item), to);
-    if (count != static_cast<int>(size)) fail_damaged();
-    done_ += size;
-  }
-
   void next_chunk() {
     constexpr uint64_t largest = uint64_t{1} << 30;  // as NanoVDB splits larger grids
-    chunk_.resize(packed_.block_size());
-    packed_.read(chunk_.data(), chunk_.size());
-    if (blosc_cbuffer_validate(chunk_.data(), chunk_.size(), &chunk_size_) != 0 ||
-        chunk_size_ != std::min(largest, left_) || chunk_size_ == 0)
-      fail_damaged();
-    left_ -= chunk_size_;
-    done_ = 0;
+    chunk_ = {};
+    const uint64_t size = packed_.block_size();
+    chunk_ = BloscChunk(packed_.part(size), size);
+    if (chunk_.size() != std::min(largest, left_)) fail_damaged();
+    left_ -= chunk_.size();
   }
 
   Packed packed_;
   uint64_t left_;  // of the grid, after this chunk
-  std::vector<char> chunk_;
-  size_t chunk_size_ = 0, done_ = 0;
+  BloscChunk chunk_;
 };
 
 }  // namespace
