@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "tyndall/math/scalar.h"
+
 namespace tyndall {
 namespace {
 
@@ -135,6 +137,39 @@ TEST(ConnectionBudget, IsCarefulWithHeavyTails) {
     budget.update();
     EXPECT_EQ(budget.pays(), is_rare);
   }
+}
+
+TEST(ConnectionBudget, KnowsWhatLitSurfacesGain) {
+  // Two techniques with densities p and q find f: alone, the second has squares f^2 / q,
+  // together f^2 / (p + q), of which connections, made n times, cost 1 / n of their own.
+  const double f = 3, p = 0.8, q = 0.2, n = 0.5;
+  const double share = p / (p + q), found = share * f / p;
+  const double alone = f * f / q;
+  const double together = sqr(q / (p + q) * f) / q + sqr(found) * p / n;
+  EXPECT_NEAR(p * double{ConnectionBudget::lit_gain(float(found), float(share), float(n))},
+              alone - together, 1e-4 * alone);
+}
+
+// Whether connections to lit surfaces pay that gain and cost so much of paths of
+// variance 1.
+bool lit_pays(float gain, float spent) {
+  ConnectionBudget budget(1, size);
+  for (int i = 0; i < 2 * 4096; ++i) {
+    const float value = i % 2 == 0 ? 2.0f : 0.0f;
+    budget.record_path(
+        0,
+        {.value = value, .legs = 1, .spent = spent, .lit_gain = gain, .lit_spent = spent});
+    budget.record_plain_path(0, {.value = value, .legs = 1});
+  }
+  budget.update();
+  return budget.lit_pays();
+}
+
+TEST(ConnectionBudget, GivesUpLitSurfacesThatGainNothing) {
+  // A leg costs 3.5: with 3.5 more, the variance has to double, and a third of that counts.
+  EXPECT_TRUE(lit_pays(0.5f, 3.5f));
+  EXPECT_FALSE(lit_pays(0.25f, 3.5f));
+  EXPECT_FALSE(lit_pays(-1, 0.5f));
 }
 
 TEST(ConnectionBudget, DecidesOnce) {

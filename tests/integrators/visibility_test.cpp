@@ -82,13 +82,14 @@ TEST(PredictedVisibilityTest, AWrongMapIsNoBias) {
       changed_map(scene, [](float distance) { return distance < 2 ? infinity : 0.0f; });
   uint64_t seed = 2;
   double right_variance = 0;
-  for (const auto& maps : {std::shared_ptr<const LightVisibility>(), dark, inverted}) {
+  const auto right = std::make_shared<const LightVisibility>(scene);
+  for (const auto& maps : {right, dark, inverted}) {
     const RunningMoments guided = radiance(scene, with_maps(maps), seed++, 120'000);
     EXPECT_LT(guided.standard_error(), 0.02 * guided.mean());
     EXPECT_GT(welch_p_value(path, guided), 1e-3)
         << seed << ": " << path.mean() << " +- " << path.standard_error() << " vs "
         << guided.mean() << " +- " << guided.standard_error();
-    if (!maps) right_variance = guided.variance();
+    if (maps == right) right_variance = guided.variance();
     // The maps do guide: wrong ones cost variance.
     if (maps == inverted) {
       EXPECT_GT(guided.variance(), right_variance);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstdint>
@@ -57,9 +58,18 @@ class ConnectionBudget {
   struct Finished {
     float value;  ///< that it found
     int legs;
-    float spent = 0;  ///< cost() of its connections
-    float noise = 0;  ///< variance of the connections, as far as pairs of them tell
+    float spent = 0;      ///< cost() of its connections
+    float noise = 0;      ///< variance of the connections, as far as pairs of them tell
+    float lit_gain = 0;   ///< lit_gain() of its connections to lit surfaces
+    float lit_spent = 0;  ///< cost() of them
   };
+  /// How much more the square of what a path finds would be without a connection to a lit
+  /// surface that is made `count` times, found `value`, and got the weight `share` of the
+  /// balance heuristic: what else finds the same path then does so alone.
+  static float lit_gain(float value, float share, float count) {
+    const float others = std::max(1 - share, 1e-6f);
+    return value * value * ((2 - share) / others - 1 / count);
+  }
   void record_path(size_t region, const Finished& path) const;
   /// A path without any connections ended.
   void record_plain_path(size_t region, const Finished& path) const;
@@ -74,6 +84,8 @@ class ConnectionBudget {
   /// False if connections are known to be of no use: the worst of a path tracer's variance,
   /// lights within reach of its vertices, takes more than a few paths to be seen.
   bool pays() const { return pays_; }
+  /// The same for connections to lit surfaces alone.
+  bool lit_pays() const { return lit_pays_; }
 
   /// Mean over the picture.
   double mean_count(Effort effort, int depth) const;
@@ -89,7 +101,7 @@ class ConnectionBudget {
     std::atomic<int64_t> squares = 0, visits = 0, variance = 0, pairs = 0;
   };
   struct Tally {
-    std::atomic<int64_t> squares = 0, paths = 0, cost = 0;
+    std::atomic<int64_t> squares = 0, paths = 0, cost = 0, lit_gain = 0, lit_cost = 0;
   };
   struct Region {
     std::array<Cell, efforts * depths> cells;
@@ -99,7 +111,7 @@ class ConnectionBudget {
   };
   // Mean variance and cost of a path.
   struct Efficiency {
-    double variance, cost, paths;
+    double variance, cost, paths, lit_gain, lit_cost;
   };
   struct Worth;  // of a square that is recorded in a region, and of a unit of cost
   Worth worth() const;
@@ -110,7 +122,7 @@ class ConnectionBudget {
 
   double overhead_, scale_;
   Vec2i resolution_, size_;
-  bool is_recording_ = true, is_decided_ = false, pays_ = true;
+  bool is_recording_ = true, is_decided_ = false, pays_ = true, lit_pays_ = true;
   mutable std::vector<Region> regions_;
   std::vector<std::array<float, efforts * depths>> counts_;
 };

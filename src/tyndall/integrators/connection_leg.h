@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <map>
 #include <memory>
 #include <optional>
@@ -41,6 +42,11 @@ class ConnectionContext {
   bool foresees_far_lights() const { return foresees_far_lights_; }
   /// Null if lit surfaces are not connected to.
   const LitSurfaceSampling* lit_surfaces() const { return lit_ ? &*lit_ : nullptr; }
+  /// The transmittance over a distance, as the densities of walks have it, where one
+  /// homogeneous medium fills the scene; elsewhere one.
+  float filling_transmittance(float distance) const {
+    return filling_sigma_t_ > 0 ? std::exp(-filling_sigma_t_ * distance) : 1;
+  }
   /// Null if directions are not learned.
   const DirectionGuiding* guiding() const { return guiding_.get(); }
   DirectionGuiding* guiding() { return guiding_.get(); }
@@ -49,6 +55,8 @@ class ConnectionContext {
   void update() {
     if (lit_) lit_->update();
   }
+  /// No more connections to lit surfaces. Not while paths are traced.
+  void forget_lit_surfaces() { lit_.reset(); }
 
  private:
   const Scene* scene_;
@@ -56,6 +64,7 @@ class ConnectionContext {
   LightChoice light_choice_;
   std::shared_ptr<const LightVisibility> visibility_;
   bool foresees_far_lights_ = false;
+  float filling_sigma_t_ = 0;
   std::optional<LitSurfaceSampling> lit_;
   std::unique_ptr<DirectionGuiding> guiding_;
   std::map<const Medium*, std::shared_ptr<const ScatteringTables>> tables_;

@@ -163,9 +163,12 @@ void Path::add_environment() {
 
 void Path::finish() const {
   if (rules_.budget && rules_.budget->is_recording())
-    rules_.budget->record_path(
-        region_,
-        {.value = luminance(result_.L), .legs = legs(), .spent = spent_, .noise = noise_});
+    rules_.budget->record_path(region_, {.value = luminance(result_.L),
+                                         .legs = legs(),
+                                         .spent = spent_,
+                                         .noise = noise_,
+                                         .lit_gain = lit_gain_,
+                                         .lit_spent = lit_spent_});
 }
 
 bool Path::scatter() {

@@ -124,7 +124,7 @@ class Path {
   Rgb transmittance_to_light(const LitPoint& lit, const Medium* medium);
   LightEnd light_end(const LitPoint& lit) const;
   std::optional<LitView> look_at(const LitPoint& lit, const Vertex& x);
-  float lit_weight(const LitPoint& lit, float edge, const LitChain& beyond) const;
+  float lit_weight(const LitPoint& lit, float edge, const LitChain& beyond);
   Rgb connect_lit(Leg& leg);  // from the leg
   Rgb connect_lit();          // from the vertex
   float edge_density(const LegStart& x, const ConnectionLeg& before, const SurfacePoint& y,
@@ -160,9 +160,11 @@ class Path {
   LegStart start_;                                    // of leg_
   LegStart start_before_;                             // of leg_before_
   PathSample result_;
-  size_t region_ = 0;  // of the budget
-  float spent_ = 0;    // on connections
-  float noise_ = 0;    // variance of the connections, as far as pairs of them tell
+  size_t region_ = 0;    // of the budget
+  float spent_ = 0;      // on connections
+  float lit_share_ = 0;  // weight of the last connection to a lit surface
+  float lit_gain_ = 0, lit_spent_ = 0;
+  float noise_ = 0;  // variance of the connections, as far as pairs of them tell
 };
 
 // Makes the connection as often as the budget says, on average.
@@ -175,16 +177,22 @@ void Path::spend(Effort effort, const Connect& connect) {
   const int count = whole + (rest > 0 && tracking_.next_1d() < rest ? 1 : 0);
   if (count == 0) return;
   Rgb sum;
-  float found[2] = {0, 0};
+  float found[2] = {0, 0}, share = 0;
   for (int i = 0; i < count; ++i) {
     const Rgb value = connect();
     sum += value;
+    if (i == 0) share = lit_share_;
     if (i < 2) found[i] = luminance(value) / average(spectral_);
   }
   add(sum / wanted);
   if (!budget || !budget->is_recording()) return;
   budget->record(region_, effort, depth_, found[0]);
   spent_ += ConnectionBudget::cost(effort, count);
+  if (effort == Effort::lit_from_leg || effort == Effort::lit_from_vertex) {
+    lit_spent_ += ConnectionBudget::cost(effort, count);
+    lit_gain_ +=
+        ConnectionBudget::lit_gain(found[0], share, wanted) / std::min(wanted, 1.0f);
+  }
   if (count < 2) return;
   const float variance = 0.5f * sqr(found[0] - found[1]);
   budget->record_pair(region_, effort, depth_, variance);

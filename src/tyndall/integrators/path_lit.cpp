@@ -71,14 +71,16 @@ std::optional<Path::LitView> Path::look_at(const LitPoint& lit, const Vertex& x)
 
 // Of the connection between x and the lit point that it sees; `beyond` are the edges of the
 // walk to x.
-float Path::lit_weight(const LitPoint& lit, float edge, const LitChain& beyond) const {
+float Path::lit_weight(const LitPoint& lit, float edge, const LitChain& beyond) {
   LitChain chain = lit.chain;
+  for (int i = 0; i < chain.size; ++i)
+    chain.edge[i] *= rules_.connections->filling_transmittance(lit.edge[i + 1].length);
   chain.push_back(edge);
   for (int i = 0; i < beyond.size; ++i) chain.push_back(beyond.edge[i]);
   const TailDensities densities =
       surface_tail_densities(*rules_.connections, chain, lit.first.point.p, light_end(lit),
                              abs_dot(lit.first.point.ng, lit.to_light()));
-  return densities.weight(densities.lit[lit.surfaces - 1]);
+  return lit_share_ = densities.weight(densities.lit[lit.surfaces - 1]);
 }
 
 Rgb Path::connect_lit(Leg& leg) {
@@ -95,7 +97,8 @@ Rgb Path::connect_lit(Leg& leg) {
   const Vertex x(leg.ray().at(s->t), -leg.ray().d, medium);
   const std::optional<LitView> view = look_at(*lit, x);
   if (!view || is_black(view->light)) return Rgb();
-  const float edge = x.pdf(view->w) * abs_dot(y.ng, view->w) / sqr(view->distance) *
+  const float T = rules_.connections->filling_transmittance(view->distance);
+  const float edge = T * x.pdf(view->w) * abs_dot(y.ng, view->w) / sqr(view->distance) *
                      leg_->proxy().collision_pdf_t(s->t) / s->pdf_t;
   const Rgb scattered =
       leg_transmittance(leg, s->t) * medium->at(x.p()).sigma_s * x.eval(view->w);
@@ -120,8 +123,9 @@ Rgb Path::connect_lit() {
 // connection's density.
 float Path::edge_density(const LegStart& x, const ConnectionLeg& before,
                          const SurfacePoint& y, Vec3 w, float distance) const {
-  if (x.can_be_lit) return diffuse_edge_density(x.ng, y.ng, w, distance);
-  const float edge = x.pdf_direction * abs_dot(y.ng, w) / sqr(distance);
+  const float T = rules_.connections->filling_transmittance(distance);
+  if (x.can_be_lit) return T * diffuse_edge_density(x.ng, y.ng, w, distance);
+  const float edge = T * x.pdf_direction * abs_dot(y.ng, w) / sqr(distance);
   if (!x.is_in_medium) return edge;
   const std::optional<ConnectionLeg::Lit> technique = before.lit(y.p, y.ng, -w);
   const float pdf_t = technique ? technique->pdf_t(x.t) : 0;

@@ -14,9 +14,9 @@ constexpr uint32_t pilot_paths = 1024;
 constexpr uint32_t pretraining_paths = 4096;
 // The budget of connections is final from this sample of each pixel on.
 constexpr uint32_t last_update = 64;
-// At this update, or at the second if directions are learned, paths without connections are
-// traced, to compare with.
-constexpr uint32_t trial_update = 4, trial_update_of_directions = 16;
+// At this update, or at the second if directions or lit surfaces are learned, paths without
+// connections are traced, to compare with.
+constexpr uint32_t trial_update = 4, trial_update_of_learned = 16;
 constexpr uint32_t trial_paths = 1 << 17;
 // What connections cost over what their rays cost: techniques are built for them, and bins
 // filled where it is predicted what lights see. Measured on the archetype scenes.
@@ -101,12 +101,13 @@ void PathTracer::pretrain(DirectionGuiding& guiding) const {
 uint32_t PathTracer::prepare(uint32_t first) {
   if (!budget_) return unlimited;
   if (first > 0 && budget_->is_recording()) {
-    if (!was_tried_ &&
-        first >= (connections_->guiding() ? trial_update_of_directions : trial_update)) {
+    const bool learns = connections_->guiding() || connections_->lit_surfaces();
+    if (!was_tried_ && first >= (learns ? trial_update_of_learned : trial_update)) {
       was_tried_ = true;
       record_plain_paths();
     }
     budget_->update();
+    if (!budget_->lit_pays()) connections_->forget_lit_surfaces();
     connections_->update();
   }
   if (first >= last_update) budget_->end_recording();
@@ -135,6 +136,10 @@ void PathTracer::report(RenderStatistics& statistics) const {
   if (!budget_->pays())
     statistics.notes.push_back(
         "connections gained less than they cost: there were none after the first samples");
+  if (!budget_->lit_pays())
+    statistics.notes.push_back(
+        "connections to lit surfaces gained less than they cost: there were none after the "
+        "first samples");
   if (const LightVisibility* visibility = connections_->visibility()) {
     statistics.counters["visibility.maps"] = static_cast<double>(visibility->maps().size());
     statistics.counters["visibility.bytes"] = static_cast<double>(visibility->memory());
