@@ -64,7 +64,8 @@ struct RayContext {
   }
   // Notes that the ray, or what is left of it, goes through a boundary.
   void cross(const TargetShape& target, const RayHit& hit, const PreciseRay& ray) const {
-    crossings->push_back(reconstruct(target, hit, ray, instances->of(embree.instID[0])));
+    crossings->push_back(
+        crossing_at(target, hit, ray, instances->of(embree.instID[0]), world_ray->d));
   }
   static const RayContext& of(const RTCIntersectContext* embree) {
     return *reinterpret_cast<const RayContext*>(embree);
@@ -252,7 +253,7 @@ RTCRay to_embree(const Ray& ray, float t_max, RayMask mask) {
 }
 
 void drop_beyond(Crossings& crossings, float t) {
-  const auto is_beyond = [&](const SceneHit& crossing) { return crossing.t > t; };
+  const auto is_beyond = [&](const Crossing& crossing) { return crossing.t > t; };
   crossings.erase(std::remove_if(crossings.begin(), crossings.end(), is_beyond),
                   crossings.end());
 }
@@ -446,7 +447,7 @@ std::optional<RayHit> Intersector::find_through(const Ray& ray, float t_max, Ray
   crossings.clear();
   const std::optional<RayHit> hit = impl_->find(ray, t_max, mask, &crossings);
   if (hit) drop_beyond(crossings, hit->t);
-  std::ranges::sort(crossings, {}, &SceneHit::t);
+  std::ranges::sort(crossings, {}, &Crossing::t);
   return hit;
 }
 

@@ -23,7 +23,7 @@ enum class RayMask : uint32_t {
 };
 
 /// Where a ray goes through boundaries, in order.
-using Crossings = boost::container::small_vector<SceneHit, 4>;
+using Crossings = boost::container::small_vector<Crossing, 4>;
 
 /// Finds the first of many shapes that a ray meets. Embree behind it; immutable and safe to
 /// use from all threads once built.

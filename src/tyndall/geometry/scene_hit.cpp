@@ -54,4 +54,22 @@ SceneHit reconstruct(const TargetShape& target, const RayHit& hit, const Precise
   return result;
 }
 
+Crossing crossing_at(const TargetShape& target, const RayHit& hit, const PreciseRay& ray,
+                     const InstanceMaps* instance, Vec3 world_d) {
+  Crossing crossing{.t = hit.t,
+                    .group = instance ? instance->group : 0,
+                    .shape = hit.shape,
+                    .goes_out = false};
+  if (const TriangleMesh* mesh = target.mesh()) {
+    // Affine maps keep the sides of surfaces: that of the ray in its own space will do.
+    const Vec3d n = mesh->triangle(hit.primitive).normal();
+    const bool is_turned = mesh->turns_outside(hit.primitive, clamp_to_triangle(hit.uv), n);
+    crossing.goes_out = (dot(ray.d, n) > 0) != is_turned;
+  } else {
+    const SceneHit point = reconstruct_curved(target, hit, ray, instance);
+    crossing.goes_out = dot(world_d, point.point.ng) > 0;
+  }
+  return crossing;
+}
+
 }  // namespace tyndall

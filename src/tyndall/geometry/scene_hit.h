@@ -17,6 +17,14 @@ struct SceneHit {
   SurfacePoint point;
 };
 
+/// Where a ray goes through a boundary: what its media depend on.
+struct Crossing {
+  float t;         ///< distance along the ray [scene units]
+  uint32_t group;  ///< group and shape index as given to the intersector
+  uint32_t shape;
+  bool goes_out;  ///< to the side of the geometric normal
+};
+
 /// Where an instance of a group of shapes is.
 struct InstanceMaps {
   uint32_t group;
@@ -41,5 +49,10 @@ struct RayHit {
 /// instance is null in the world.
 SceneHit reconstruct(const TargetShape& target, const RayHit& hit, const PreciseRay& ray,
                      const InstanceMaps* instance);
+
+/// The crossing at a hit of a boundary, by a ray as in reconstruct(); `world_d` is its
+/// direction in the world.
+Crossing crossing_at(const TargetShape& target, const RayHit& hit, const PreciseRay& ray,
+                     const InstanceMaps* instance, Vec3 world_d);
 
 }  // namespace tyndall

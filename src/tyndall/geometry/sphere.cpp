@@ -223,11 +223,11 @@ float Sphere::pdf_area(const SurfacePoint& on) const {
 
 std::optional<ShapeDirectionSample> Sphere::sample_direction(Vec3 from, Vec2 u) const {
   const Affine world(world_from_sphere);
-  const auto towards = [&](Vec3d normal, float pdf) {
-    const Vec3d n = normalize_or_z(world.transposed(normal));
+  // Where there is a cone or a shell the sphere is one in the world, too.
+  const auto towards = [&](Vec3d normal, double world_radius, float pdf) {
     const Vec3 ng = to_float(flip_normals ? -normal : normal);
     return ShapeDirectionSample{
-        .point = {.p = to_float(world.point(n * static_cast<double>(radius))),
+        .point = {.p = to_float(world.column(3) + normal * world_radius),
                   .ng = ng,
                   .ns = ng,
                   .uv = {}},
@@ -236,10 +236,10 @@ std::optional<ShapeDirectionSample> Sphere::sample_direction(Vec3 from, Vec2 u) 
   if (const std::optional<Cone> cone = cone_from_outside(*this, world, from)) {
     const float pdf = cone_pdf(*cone);
     if (!(pdf > 0)) return std::nullopt;
-    return towards(near_side_normal(*cone, u), pdf);
+    return towards(near_side_normal(*cone, u), cone->radius, pdf);
   }
   if (const std::optional<Shell> shell = shell_from_inside(*this, world, from))
-    return towards(far_side_normal(*shell, u), inv_4pi);
+    return towards(far_side_normal(*shell, u), shell->radius, inv_4pi);
   return sample_direction_by_area(*this, from, u);
 }
 

@@ -50,6 +50,9 @@ class TriangleMesh {
   /// The same if triangle(primitive) is known already.
   SurfacePoint point(uint32_t primitive, Vec2 barycentric,
                      const PreciseTriangle& triangle) const;
+  /// Whether the geometric normal of point() is opposite to triangle(primitive).normal(),
+  /// which is `n`.
+  bool turns_outside(uint32_t primitive, Vec2 barycentric, Vec3d n) const;
   PreciseTriangle triangle(uint32_t primitive) const {
     const Vec3i& t = triangles_[primitive];
     const Vec3d p0(positions_[static_cast<size_t>(t.x)]);
@@ -63,6 +66,14 @@ class TriangleMesh {
   float pdf_area(const SurfacePoint& on) const;
 
  private:
+  // Between the values at the corners of a triangle.
+  template <typename T>
+  T interpolate(uint32_t primitive, Vec2 b, const std::vector<T>& values) const {
+    const Vec3i& t = triangles_[primitive];
+    return values[static_cast<size_t>(t.x)] * (1 - b.x - b.y) +
+           values[static_cast<size_t>(t.y)] * b.x + values[static_cast<size_t>(t.z)] * b.y;
+  }
+
   std::vector<Vec3> positions_;
   std::vector<Vec3i> triangles_;
   std::vector<Vec3> normals_;
@@ -74,25 +85,24 @@ class TriangleMesh {
 // Inline, as every ray that hits something comes by.
 inline SurfacePoint TriangleMesh::point(uint32_t primitive, Vec2 barycentric,
                                         const PreciseTriangle& triangle) const {
-  const Vec3i& t = triangles_[primitive];
-  const auto interpolate = [&](const auto& a, const auto& b, const auto& c) {
-    return a * (1 - barycentric.x - barycentric.y) + b * barycentric.x + c * barycentric.y;
-  };
-  const auto interpolate_vertices = [&](const auto& values) {
-    return interpolate(values[static_cast<size_t>(t.x)], values[static_cast<size_t>(t.y)],
-                       values[static_cast<size_t>(t.z)]);
-  };
   Vec3 ng = to_float(normalize_or_z(triangle.normal()));
   Vec3 ns = flip_normals_ ? -ng : ng;
   if (!normals_.empty()) {
-    const Vec3 n = interpolate_vertices(normals_);
+    const Vec3 n = interpolate(primitive, barycentric, normals_);
     if (length_squared(n) > 0) ns = normalize(n);
   }
   if (dot(ng, ns) < 0) ng = -ng;
   // Without texture coordinates pbrt gives the corners these.
-  const Vec2 uv = uvs_.empty() ? interpolate(Vec2{0, 0}, Vec2{1, 0}, Vec2{1, 1})
-                               : interpolate_vertices(uvs_);
+  const Vec2 uv = uvs_.empty() ? Vec2{barycentric.x + barycentric.y, barycentric.y}
+                               : interpolate(primitive, barycentric, uvs_);
   return {.p = to_float(triangle.position(barycentric)), .ng = ng, .ns = ns, .uv = uv};
+}
+
+inline bool TriangleMesh::turns_outside(uint32_t primitive, Vec2 barycentric,
+                                        Vec3d n) const {
+  if (normals_.empty()) return flip_normals_;
+  const Vec3 ns = interpolate(primitive, barycentric, normals_);
+  return length_squared(ns) > 0 ? dot(to_float(n), ns) < 0 : flip_normals_;
 }
 
 }  // namespace tyndall

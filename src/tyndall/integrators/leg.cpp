@@ -1,9 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tyndall/integrators/leg.h"
 
+#include <type_traits>
+
 #include "tyndall/media/glow.h"
 
 namespace tyndall {
+namespace {
+
+// What a function returns, made where it is to stay: `optional.emplace(Made{f})` copies
+// nothing.
+template <typename F>
+struct Made {
+  F make;
+  operator std::invoke_result_t<F>() const { return make(); }  // NOLINT: the point of it
+};
+
+}  // namespace
+
 Leg::Leg(const Scene& scene, const Ray& ray, const Medium* medium)
     : scene_(&scene), ray_(ray), medium_(medium) {}
 
@@ -18,7 +32,7 @@ const Leg::Span* Leg::span(size_t i) {
 
 const SurfaceHit* Leg::end() {
   trace();
-  if (found_ && !end_) end_ = scene_->resolve(ray_, *found_);
+  if (found_ && !end_) end_.emplace(Made{[&] { return scene_->resolve(ray_, *found_); }});
   return end_ ? &*end_ : nullptr;
 }
 

@@ -14,7 +14,7 @@ Vertex::Vertex(const SurfaceHit& hit, Vec3 wo, const Medium* medium)
       wo_(wo),
       medium_(medium),
       hit_(hit),
-      bsdf_(Bsdf(hit.surface->material, hit.point.ng, hit.point.ns)) {}
+      bsdf_(std::in_place, hit.surface->material, hit.point.ng, hit.point.ns) {}
 
 Rgb Vertex::eval(Vec3 wi) const {
   return bsdf_ ? bsdf_->eval(wo_, wi) : medium_->eval_phase(p_, wo_, wi);

@@ -18,8 +18,8 @@ struct BoundaryStep {
   const Surface* surface;
 };
 
-/// What a surface says of light that crosses it towards `d`; empty if nothing.
-std::optional<BoundaryStep> step_across(const SurfaceHit& hit, Vec3 d);
+/// What a surface says of light that crosses it; empty if nothing.
+std::optional<BoundaryStep> step_across(const SurfaceCrossing& crossing);
 
 /// The steps of a ray through boundaries, in the order in which they make sense where
 /// boundaries touch or coincide.
@@ -29,14 +29,15 @@ class BoundarySteps {
   /// what stands on a boundary is in the medium before it.
   BoundarySteps(const Ray& ray, float t_end);
 
-  /// To be called with hits in the order of their distances.
-  void add(const SurfaceHit& hit);
+  /// To be called in the order of distances.
+  void add(const SurfaceCrossing& crossing);
 
-  /// The next step. Of several in the same place, one that leaves a medium that light is in
-  /// comes first, then those that only enter; is_in(index) tells which media those are.
+  /// The next step, null after the last; valid until the next call. Of several in the same
+  /// place, one that leaves a medium that light is in comes first, then those that only
+  /// enter; is_in(index) tells which media those are.
   template <typename F>
-  std::optional<BoundaryStep> next(const F& is_in) {
-    if (next_ == steps_.size()) return std::nullopt;
+  const BoundaryStep* next(const F& is_in) {
+    if (next_ == steps_.size()) return nullptr;
     const auto rank = [&](const BoundaryStep& step) {
       return step.from == no_medium ? 1 : is_in(step.from) ? 0 : 2;
     };
@@ -44,8 +45,8 @@ class BoundarySteps {
     for (size_t i = next_ + 1; i < steps_.size() && are_together(steps_[next_], steps_[i]);
          ++i)
       if (rank(steps_[i]) < rank(steps_[best])) best = i;
-    std::swap(steps_[next_], steps_[best]);
-    return steps_[next_++];
+    if (best != next_) std::swap(steps_[next_], steps_[best]);
+    return &steps_[next_++];
   }
 
  private:
@@ -54,7 +55,6 @@ class BoundarySteps {
     return b.t - a.t <= tolerance(b.t);
   }
 
-  Vec3 d_;
   float size_;  // of the numbers that distances come from
   float t_end_;
   boost::container::small_vector<BoundaryStep, 4> steps_;

@@ -61,13 +61,13 @@ class Surroundings {
 };
 
 std::optional<std::vector<int>> media_at_start(const Scene& scene, const Ray& ray) {
-  SurfaceHits crossings;
+  SurfaceCrossings crossings;
   const std::optional<SurfaceHit> end = scene.intersect_through(ray, infinity, crossings);
   BoundarySteps steps(ray, end ? end->t : infinity);
-  for (const SurfaceHit& crossing : crossings) steps.add(crossing);
+  for (const SurfaceCrossing& crossing : crossings) steps.add(crossing);
   Surroundings around;
   const auto is_in = [&](int medium) { return around.is_in(medium); };
-  while (const std::optional<BoundaryStep> step = steps.next(is_in)) around.cross(*step);
+  while (const BoundaryStep* step = steps.next(is_in)) around.cross(*step);
   if (end && end->surface->media.is_stated) {
     const MediumInterface& media = end->surface->media;
     around.arrive(dot(ray.d, end->point.ng) < 0 ? media.outside : media.inside);

@@ -68,17 +68,17 @@ class Scene::Impl {
     measure_power();
   }
 
-  const Surface& surface(const RayHit& hit) const {
+  const Surface& surface(uint32_t group, uint32_t shape) const {
     const std::vector<Surface>& surfaces =
-        hit.group == 0 ? description.surfaces : description.objects[hit.group - 1];
-    return surfaces[hit.shape];
+        group == 0 ? description.surfaces : description.objects[group - 1];
+    return surfaces[shape];
   }
 
   SurfaceHit resolve(const Ray& ray, const RayHit& hit) const {
     const size_t light = hit.group == 0 ? light_of_surface[hit.shape] : no_light;
     return {.t = hit.t,
             .point = intersector.resolve(ray, hit).point,
-            .surface = &surface(hit),
+            .surface = &surface(hit.group, hit.shape),
             .light = light == no_light ? nullptr : &lights[light],
             .light_index = light};
   }
@@ -88,14 +88,10 @@ class Scene::Impl {
     return hit ? std::optional<SurfaceHit>(resolve(ray, *hit)) : std::nullopt;
   }
 
-  SurfaceHit resolve(const SceneHit& hit) const {
-    const std::vector<Surface>& surfaces =
-        hit.group == 0 ? description.surfaces : description.objects[hit.group - 1];
-    return {.t = hit.t,
-            .point = hit.point,
-            .surface = &surfaces[hit.shape],
-            .light = nullptr,  // boundaries do not shine
-            .light_index = no_light};
+  SurfaceCrossing resolve(const Crossing& crossing) const {
+    return {.t = crossing.t,
+            .surface = &surface(crossing.group, crossing.shape),
+            .goes_out = crossing.goes_out};
   }
 
   // Cuts (0, t_end) of a ray at the boundaries that it goes through. Returns the medium at
@@ -107,12 +103,12 @@ class Scene::Impl {
       return medium;
     }
     BoundarySteps steps(ray, t_end);
-    for (const SceneHit& hit : crossings) steps.add(resolve(hit));
+    for (const Crossing& crossing : crossings) steps.add(resolve(crossing));
     float t = 0;
     const auto is_in = [&](int index) {
       return sets.contains(medium, this->medium(index));
     };
-    while (const std::optional<BoundaryStep> step = steps.next(is_in)) {
+    while (const BoundaryStep* step = steps.next(is_in)) {
       const Medium* behind =
           sets.cross(medium, this->medium(step->from), this->medium(step->to));
       if (behind == medium) continue;
@@ -222,7 +218,7 @@ std::optional<SurfaceHit> Scene::intersect(const Ray& ray, float t_max) const {
 std::optional<FoundSurface> Scene::find(const Ray& ray, float t_max) const {
   const std::optional<RayHit> hit = impl_->intersector.find(ray, t_max, RayMask::all);
   if (!hit) return std::nullopt;
-  return FoundSurface{*hit, &impl_->surface(*hit)};
+  return FoundSurface{*hit, &impl_->surface(hit->group, hit->shape)};
 }
 
 SurfaceHit Scene::resolve(const Ray& ray, const FoundSurface& found) const {
@@ -234,12 +230,12 @@ std::optional<SurfaceHit> Scene::intersect_opaque(const Ray& ray, float t_max) c
 }
 
 std::optional<SurfaceHit> Scene::intersect_through(const Ray& ray, float t_max,
-                                                   SurfaceHits& crossings) const {
+                                                   SurfaceCrossings& crossings) const {
   Crossings found;
   const std::optional<RayHit> hit =
       impl_->intersector.find_through(ray, t_max, RayMask::all, found);
   crossings.clear();
-  for (const SceneHit& crossing : found) crossings.push_back(impl_->resolve(crossing));
+  for (const Crossing& crossing : found) crossings.push_back(impl_->resolve(crossing));
   return hit ? std::optional<SurfaceHit>(impl_->resolve(ray, *hit)) : std::nullopt;
 }
 
@@ -253,7 +249,7 @@ std::optional<FoundSurface> Scene::trace(const Ray& ray, float t_max, const Medi
           : impl_->intersector.find(ray, t_max, RayMask::all);
   medium = impl_->cut(ray, hit ? hit->t : t_max, medium, crossings, spans);
   if (!hit) return std::nullopt;
-  return FoundSurface{*hit, &impl_->surface(*hit)};
+  return FoundSurface{*hit, &impl_->surface(hit->group, hit->shape)};
 }
 
 const Medium* Scene::media_along(const Ray& ray, float t_max, const Medium* medium,
@@ -271,7 +267,8 @@ bool Scene::is_occluded(const Ray& ray, float t_max) const {
 
 const Medium* Scene::medium_across(const SurfaceHit& hit, Vec3 d,
                                    const Medium* current) const {
-  const std::optional<BoundaryStep> step = step_across(hit, d);
+  const std::optional<BoundaryStep> step = step_across(
+      {.t = hit.t, .surface = hit.surface, .goes_out = dot(d, hit.point.ng) > 0});
   if (!step) return current;
   return impl_->sets.cross(current, impl_->medium(step->from), impl_->medium(step->to));
 }

@@ -22,6 +22,13 @@ struct SurfaceHit {
   size_t light_index;      ///< of `light` in Scene::lights()
 };
 
+/// A boundary that a ray goes through.
+struct SurfaceCrossing {
+  float t;  ///< distance along the ray [scene units]
+  const Surface* surface;
+  bool goes_out;  ///< to the side of the geometric normal
+};
+
 /// A surface that a ray meets, before its point is computed.
 struct FoundSurface {
   RayHit hit;
@@ -36,7 +43,7 @@ struct MediumSpan {
 
 /// In order and without gaps, from zero on; not empty.
 using MediumSpans = boost::container::small_vector<MediumSpan, 4>;
-using SurfaceHits = boost::container::small_vector<SurfaceHit, 4>;
+using SurfaceCrossings = boost::container::small_vector<SurfaceCrossing, 4>;
 
 /// An immutable scene, ready to trace. Safe to use from all threads.
 class Scene {
@@ -65,7 +72,7 @@ class Scene {
   std::optional<SurfaceHit> intersect_opaque(const Ray& ray, float t_max) const;
   /// As intersect_opaque(); writes the boundaries in front of it to `crossings`, in order.
   std::optional<SurfaceHit> intersect_through(const Ray& ray, float t_max,
-                                              SurfaceHits& crossings) const;
+                                              SurfaceCrossings& crossings) const;
   /// The first surface that is not only a boundary; writes the media before it to `spans`,
   /// for a ray that starts in `medium`, which becomes the medium at the end.
   std::optional<FoundSurface> trace(const Ray& ray, float t_max, const Medium*& medium,
