@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tyndall/math/constants.h"
+#include "tyndall/math/vector_clones.h"
 
 namespace tyndall {
 
@@ -104,6 +105,7 @@ ViewPoint LightView::project(Vec3 p) const {
   }
 }
 
+TYNDALL_VECTOR_CLONES
 void LightView::project(const Ray& ray, std::span<const float> t, ViewBatch& out) const {
   assert(t.size() <= ViewBatch::capacity);
   const Vec3 o = frame_.to_local(ray.o - origin_), d = frame_.to_local(ray.d);

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "tyndall/math/constants.h"
+#include "tyndall/math/vector_clones.h"
 #include "tyndall/sampling/random.h"
 
 namespace tyndall {
@@ -171,6 +172,7 @@ float VisibilityMap::visibility(Vec3 p, int level) const {
   return floor_ + (1 - floor_) * share;
 }
 
+TYNDALL_VECTOR_CLONES
 void VisibilityMap::visibility(const Ray& ray, std::span<const float> t,
                                std::span<float> out, int level) const {
   assert(out.size() == t.size() && 0 <= level && level < levels());

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tyndall/math/vector_clones.h"
+
 namespace tyndall {
 namespace {
 
@@ -143,6 +145,7 @@ std::optional<EquiangularSampling> ConnectionLeg::useful_base(size_t light) cons
   return base;
 }
 
+TYNDALL_VECTOR_CLONES
 ConnectionLeg::Single ConnectionLeg::bin_single(size_t light,
                                                 const EquiangularSampling& base) const {
   DistanceWeights<32> factors = weights(base.taps<32>(), true);

@@ -10,6 +10,7 @@
 #include "tyndall/integrators/pilot_points.h"
 #include "tyndall/integrators/sky_probe.h"
 #include "tyndall/math/parallel_for.h"
+#include "tyndall/math/vector_clones.h"
 
 namespace tyndall {
 namespace {
@@ -103,6 +104,7 @@ void LightVisibility::measure_sky(size_t light, const Scene& scene,
   skies_.emplace(light, std::move(grid));
 }
 
+TYNDALL_VECTOR_CLONES
 void LightVisibility::multiply(size_t light, const Ray& ray, std::span<const float> t,
                                float footprint, std::span<float> weights) const {
   assert(t.size() <= max_taps && t.size() % weights.size() == 0);
