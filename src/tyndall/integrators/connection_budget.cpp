@@ -15,10 +15,8 @@ constexpr std::array<double, 6> effort_cost{2, 4, 4, 3, 4, 3};
 constexpr double leg_cost = 2.5, possible_cost = 1;
 
 // Connections are given up if they leave less than this share of the efficiency of plain
-// paths. Where they lower the variance by much they may leave less: they do so by finding
-// what is rare, and more of it than was seen so far.
-constexpr double least_efficiency = 0.9, great_gain = 1.5,
-                 least_efficiency_of_great_gain = 0.75;
+// paths, whose variance is taken for as large as it may well be.
+constexpr double least_efficiency = 0.85;
 constexpr double least_paths = 4000;  // to judge by
 constexpr double tail_errors = 5;     // standard errors of the variance of plain paths
 
@@ -204,10 +202,7 @@ void ConnectionBudget::decide(const Worth& worth) {
       with.variance * with.cost;
   const double variance =
       without.variance + tail_errors * standard_error(worth, without.paths);
-  const double least = variance > great_gain * with.variance
-                           ? least_efficiency_of_great_gain
-                           : least_efficiency;
-  pays_ = variance * without.cost > least * with.variance * with.cost;
+  pays_ = variance * without.cost > least_efficiency * with.variance * with.cost;
 }
 
 void ConnectionBudget::update_cell(size_t cell, const Worth& worth) {
