@@ -218,7 +218,8 @@ void BM_Update(benchmark::State& state) {
     TrainingSample& s = buffer[i];
     s.key = i;
     s.p = {random.next_1d(), random.next_1d(), random.next_1d()};
-    s.wi = spherical_direction(random.next_1d(), 6.28f * random.next_1d());
+    const float cos_theta = random.next_1d();
+    s.wi = spherical_direction(cos_theta, 6.28f * random.next_1d());
     s.light_direction = {0, 0, 1};
     s.weight = s.pdf = s.light_distance = 1;
   }

@@ -51,8 +51,9 @@ std::vector<Ray> rays_from_inside(const GridMedium& medium, size_t count) {
   RandomStream rng(5);
   std::vector<Ray> rays;
   while (rays.size() < count) {
-    const Ray ray{{rng.next_1d(), rng.next_1d(), rng.next_1d()},
-                  spherical_direction(2 * rng.next_1d() - 1, 2 * pi * rng.next_1d())};
+    const Vec3 o{rng.next_1d(), rng.next_1d(), rng.next_1d()};
+    const float cos_theta = 2 * rng.next_1d() - 1;
+    const Ray ray{o, spherical_direction(cos_theta, 2 * pi * rng.next_1d())};
     if (medium.at(ray.o).sigma_s.r > 0) rays.push_back(ray);
   }
   return rays;

@@ -66,7 +66,8 @@ void glossy_glass(benchmark::State& state) {
   RandomStream random(1);
   for (auto _ : state) {
     const Vec3 wo = sample_uniform_sphere(random.next_2d());
-    benchmark::DoNotOptimize(bsdf.sample(wo, random.next_1d(), random.next_2d()));
+    const float u_lobe = random.next_1d();
+    benchmark::DoNotOptimize(bsdf.sample(wo, u_lobe, random.next_2d()));
   }
 }
 BENCHMARK(glossy_glass);

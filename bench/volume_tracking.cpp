@@ -135,8 +135,9 @@ std::vector<Ray> rays_from_inside(const GridMedium& medium) {
   const Bounds3 box = medium.grid_box();
   while (rays.size() < ray_count) {
     const Vec3 u{rng.next_1d(), rng.next_1d(), rng.next_1d()};
+    const float cos_theta = 2 * rng.next_1d() - 1;
     const Ray ray{medium.world_from_grid().point(box.min + box.diagonal() * u),
-                  spherical_direction(2 * rng.next_1d() - 1, 2 * pi * rng.next_1d())};
+                  spherical_direction(cos_theta, 2 * pi * rng.next_1d())};
     if (medium.at(ray.o).sigma_s.r > 0) rays.push_back(ray);
   }
   return rays;

@@ -89,7 +89,8 @@ TEST_P(LightSquareTest, DirectionInvertsPoint) {
   const LightSquare s = square(GetParam());
   RandomStream random(2);
   for (int i = 0; i < 100'000; ++i) {
-    const Vec3 w = spherical_direction(2 * random.next_1d() - 1, 2 * pi * random.next_1d());
+    const float cos_theta = 2 * random.next_1d() - 1;
+    const Vec3 w = spherical_direction(cos_theta, 2 * pi * random.next_1d());
     // Near the opposite direction the square's own coordinates are the coarser ones.
     const float error = 3e-6f + 1e-6f / std::max(length(w + axis), 1e-3f);
     ASSERT_LT(distance(s.direction(s.point(w).p).w, w), error);
@@ -173,7 +174,8 @@ TEST_P(LightSquareTest, MixturesOnTheSphereFollowTheirDensity) {
 TEST(TurnedFrameTest, IsOrthonormalAndKeepsTheReference) {
   RandomStream random(1);
   for (int i = 0; i < 1000; ++i) {
-    const Vec3 z = spherical_direction(2 * random.next_1d() - 1, 2 * pi * random.next_1d());
+    const float cos_theta = 2 * random.next_1d() - 1;
+    const Vec3 z = spherical_direction(cos_theta, 2 * pi * random.next_1d());
     const Frame f = turned_frame(frame, z);
     EXPECT_LT(distance(f.z, z), 1e-6f);
     EXPECT_NEAR(length(f.x), 1, 1e-5);

@@ -103,8 +103,10 @@ TEST(BatchEmTest, PenalizedLikelihoodNeverFalls) {
       settings.weight_count = 0.1;
       Points points = points_of(GaussianMixture(example.components), n, 11);
       RandomStream random(n);
-      for (WeightedPoint& s : points)
-        s.weight = random.next_1d() / (0.01f + random.next_1d());
+      for (WeightedPoint& s : points) {
+        const float dividend = random.next_1d();
+        s.weight = dividend / (0.01f + random.next_1d());
+      }
       GaussianMixture mixture = initial_mixture(points, 2, settings);
       double last = penalized_log_likelihood(mixture, points, settings);
       for (int sweep = 0; sweep < 40; ++sweep) {

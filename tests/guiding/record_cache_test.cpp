@@ -34,7 +34,8 @@ TrainingSample random_sample(uint64_t key) {
   s.cluster = random.next_1d() < 0.5f ? 0 : 1;
   s.light_distance = distance(lights[s.cluster], s.p);
   s.light_direction = (lights[s.cluster] - s.p) / s.light_distance;
-  s.wi = spherical_direction(2 * random.next_1d() - 1, 2 * pi * random.next_1d());
+  const float cos_theta = 2 * random.next_1d() - 1;
+  s.wi = spherical_direction(cos_theta, 2 * pi * random.next_1d());
   s.weight = arriving(s.cluster, s.p, s.wi) * 4 * pi;
   s.pdf = s.phase_pdf = inv_4pi;
   s.scatter_distance = 0.2f + random.next_1d();

@@ -22,7 +22,7 @@ Image noisy(int size, double mean, unsigned seed, bool grey = true, int samples 
     for (int x = 0; x < size; ++x) {
       for (int i = 0; i < samples; ++i) {
         PathSample sample;
-        sample.L = grey ? Rgb(draw(random)) : Rgb(draw(random), draw(random), draw(random));
+        sample.L = grey ? Rgb(draw(random)) : Rgb{draw(random), draw(random), draw(random)};
         film.add({x, y}, sample, 1);
       }
     }

@@ -181,8 +181,8 @@ TEST(PredictedVisibilityTest, LightIsDimmedByTheSmokeOnItsWay) {
     const LightVisibility visibility(scene);
     RandomStream random(3);
     for (int i = 0; i < 200; ++i) {
-      const Vec3 p =
-          sample_uniform_sphere(random.next_2d()) * (0.2f + 0.7f * random.next_1d());
+      const Vec3 w = sample_uniform_sphere(random.next_2d());
+      const Vec3 p = w * (0.2f + 0.7f * random.next_1d());
       float weight = 2;
       const float t = 1;
       const Ray ray{p - Vec3{0, 0, 1}, {0, 0, 1}};

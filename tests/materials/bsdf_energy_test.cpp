@@ -57,7 +57,8 @@ TEST_P(BsdfEnergy, EstimatesAgreeWithQuadrature) {
   RunningMoments sampled_upper, sampled_lower;
   RandomStream random(5);
   for (int i = 0; i < 60'000; ++i) {
-    const auto s = bsdf.sample(wo, random.next_1d(), random.next_2d());
+    const float u_lobe = random.next_1d();
+    const auto s = bsdf.sample(wo, u_lobe, random.next_2d());
     const double weight = s ? double{s->value.g / s->pdf} : 0;
     sampled_upper.add(s && s->wi.z > 0 ? weight : 0);
     sampled_lower.add(s && s->wi.z < 0 ? weight : 0);
@@ -90,8 +91,8 @@ TEST_P(BsdfEnergy, IsReciprocal) {
   RandomStream random(6);
   int compared = 0;
   for (int i = 0; i < 2000; ++i) {
-    const Vec3 wi =
-        spherical_direction(1 - 2 * random.next_1d(), 2 * pi * random.next_1d());
+    const float cos_theta = 1 - 2 * random.next_1d();
+    const Vec3 wi = spherical_direction(cos_theta, 2 * pi * random.next_1d());
     if (sees_facet_edge_on(GetParam(), wi)) continue;
     const double there =
         double{bsdf.eval(wo, wi).g / magnitude(wi.z)} * energy_scale(GetParam(), wi);

@@ -38,7 +38,8 @@ TEST_P(BsdfSampling, ReturnsWhatEvalAndPdfSay) {
   const Bsdf bsdf = GetParam().bsdf();
   RandomStream random(8);
   for (int i = 0; i < 5000; ++i) {
-    const auto s = bsdf.sample(wo, random.next_1d(), random.next_2d());
+    const float u_lobe = random.next_1d();
+    const auto s = bsdf.sample(wo, u_lobe, random.next_2d());
     if (!s) continue;
     ASSERT_NEAR(length(s->wi), 1, 1e-6f);
     ASSERT_FALSE(s->is_specular);

@@ -28,7 +28,8 @@ TEST_P(ShadingNormals, NeverLeak) {
   int drawn = 0;
   for (int i = 0; i < 20'000; ++i) {
     const Vec3 wo = sample_uniform_sphere(random.next_2d());
-    const auto s = bsdf.sample(wo, random.next_1d(), random.next_2d());
+    const float u_lobe = random.next_1d();
+    const auto s = bsdf.sample(wo, u_lobe, random.next_2d());
     if (s) {
       ++drawn;
       ASSERT_GT(dot(wo, ng) * dot(wo, ns), 0);
@@ -54,7 +55,8 @@ TEST_P(ShadingNormals, SamplesAgreeWithEvalInWorldSpace) {
   RandomStream random(2);
   for (int i = 0; i < 2000; ++i) {
     const Vec3 wo = sample_uniform_sphere(random.next_2d());
-    const auto s = bsdf.sample(wo, random.next_1d(), random.next_2d());
+    const float u_lobe = random.next_1d();
+    const auto s = bsdf.sample(wo, u_lobe, random.next_2d());
     if (!s || magnitude(dot(s->wi, ns)) < 0.01f || magnitude(dot(wo, ns)) < 0.01f) continue;
     ASSERT_NEAR(bsdf.pdf(wo, s->wi), s->pdf, 2e-3f * s->pdf);
     ASSERT_NEAR(bsdf.eval(wo, s->wi).r, s->value.r, 2e-3f * s->value.r);

@@ -177,7 +177,8 @@ TEST(TrackingTest, ConstantGridIsHomogeneous) {
   const HomogeneousMedium homogeneous({Rgb(0.5f), Rgb(1.5f), {}}, IsotropicPhase{});
   RunningMoments a, b;
   for (int i = 0; i < 100'000; ++i) {
-    const Vec3 d = spherical_direction(uniform(rng, -1, 1), uniform(rng, 0, 2 * pi));
+    const float cos_theta = uniform(rng, -1, 1);
+    const Vec3 d = spherical_direction(cos_theta, uniform(rng, 0, 2 * pi));
     const float t_max = 0.9f;
     a.add(
         std::min(double{first_collision(constant, {{0, 0, 0}, d}, t_max, 0, rng).t}, 1.0));

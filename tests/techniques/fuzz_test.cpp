@@ -44,8 +44,10 @@ class Fuzz {
         return std::bit_cast<float>(random_.next_bits());
       case 1:
         return special[random_.next_bits() % std::size(special)];
-      case 2:
-        return std::ldexp(random_.next_1d() - 0.5f, int(random_.next_bits() % 80) - 40);
+      case 2: {
+        const float mantissa = random_.next_1d() - 0.5f;
+        return std::ldexp(mantissa, int(random_.next_bits() % 80) - 40);
+      }
       case 3:
         return 0;
       default:
