@@ -181,7 +181,7 @@ std::string describe(const CLI::ParseError& error, const CLI::App& command) {
 
 }  // namespace
 
-Command& Command::positional(const std::string& name, ArgumentTarget target,
+Command& Command::positional(const std::string& name, const ArgumentTarget& target,
                              const std::string& help, const ArgumentStyle& style) {
   CLI::Option* option = add(*app_, name, "", target, help, style);
   option->option_text(" ");
@@ -189,7 +189,7 @@ Command& Command::positional(const std::string& name, ArgumentTarget target,
   return *this;
 }
 
-Command& Command::option(const std::string& names, ArgumentTarget target,
+Command& Command::option(const std::string& names, const ArgumentTarget& target,
                          const std::string& help, const ArgumentStyle& style) {
   // One value for each occurrence, so that "-o a.exr scene.pbrt" leaves the scene alone.
   add(*app_, names, environment_name(names), target, help, style)

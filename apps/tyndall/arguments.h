@@ -49,10 +49,10 @@ class Command {
       : app_(app), selected_(selected) {}
 
   /// An argument without a flag: one value, or any number if the target is a vector.
-  Command& positional(const std::string& name, ArgumentTarget target,
+  Command& positional(const std::string& name, const ArgumentTarget& target,
                       const std::string& help, const ArgumentStyle& style = {});
-  Command& option(const std::string& names, ArgumentTarget target, const std::string& help,
-                  const ArgumentStyle& style = {});
+  Command& option(const std::string& names, const ArgumentTarget& target,
+                  const std::string& help, const ArgumentStyle& style = {});
   Command& flag(const std::string& names, bool* target, const std::string& help,
                 const std::string& group = "Options");
   /// Text below the options in help.

@@ -54,6 +54,7 @@ std::vector<Method> parse_methods(const std::string& text) {
   std::vector<Method> methods;
   std::vector<std::string> names = split(text, ',');
   if (names.empty()) names = {""};
+  methods.reserve(names.size());
   for (const std::string& name : names) methods.push_back(parse_method(name));
   if (!are_unique(names)) throw std::invalid_argument("must not name a method twice");
   return methods;
@@ -66,7 +67,7 @@ std::vector<std::string> scene_names(const std::vector<std::string>& paths) {
     const std::string stem = absolute.stem().string(),
                       folder = absolute.parent_path().filename().string();
     short_names.push_back(stem == "scene" ? folder : stem);
-    long_names.push_back(folder + "-" + stem);
+    long_names.push_back(fmt::format("{}-{}", folder, stem));
   }
   if (are_unique(short_names)) return short_names;
   if (!are_unique(long_names)) {

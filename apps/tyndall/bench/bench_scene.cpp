@@ -118,8 +118,9 @@ std::string render_command(const BenchScene& scene, const BenchPlan& plan,
     words.insert(words.end(), {name, value});
   };
   for (const auto& [name, value] : plan.render.assignments)
-    add("--set", name + "=" + value);
-  for (const auto& [name, value] : method.options) add("--set", name + "=" + value);
+    add("--set", fmt::format("{}={}", name, value));
+  for (const auto& [name, value] : method.options)
+    add("--set", fmt::format("{}={}", name, value));
   if (plan.render.size) {
     add("--size", fmt::format("{}x{}", plan.render.size->x, plan.render.size->y));
   }
@@ -128,6 +129,7 @@ std::string render_command(const BenchScene& scene, const BenchPlan& plan,
   add("--spp", fmt::format("{}", run.samples_per_pixel));
   add("-o", run.image);
   std::vector<const char*> pointers;
+  pointers.reserve(words.size());
   for (const std::string& word : words) pointers.push_back(word.c_str());
   return shell_line(static_cast<int>(pointers.size()), pointers.data());
 }

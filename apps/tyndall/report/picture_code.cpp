@@ -83,9 +83,9 @@ std::string encode_picture(const Image& image, const LevelScale& scale) {
 std::string encode_map(std::span<const float> values, int width) {
   std::vector<uint16_t> levels;
   for (const float x : values) {
-    levels.push_back(std::isnan(x)
-                         ? uint16_t{0}
-                         : static_cast<uint16_t>(std::clamp(x, 0.0f, 1.0f) * 63 + 0.5f));
+    levels.push_back(
+        std::isnan(x) ? uint16_t{0}
+                      : static_cast<uint16_t>(std::lround(std::clamp(x, 0.0f, 1.0f) * 63)));
   }
   return deflate_bytes(pack_plane(levels, width));
 }

@@ -222,7 +222,7 @@ std::string report_page(const std::vector<ReportInput>& inputs) {
       fmt::format("<script>\n{}{}{}</script>\n</body>\n</html>\n", asset::pictures_js,
                   asset::viewer_js, asset::page_js);
   for (const int steps : {32, 16, 8, 4}) {
-    std::string page = text + data_html(scenes, steps) + scripts;
+    std::string page = fmt::format("{}{}{}", text, data_html(scenes, steps), scripts);
     if (page.size() <= report_size_limit) return page;
   }
   throw std::runtime_error(

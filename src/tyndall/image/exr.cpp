@@ -109,7 +109,7 @@ void read_attributes(const Imf::Header& header, Image& image) {
 Image empty_image(const Imf::Header& header) {
   const Vec2i size = size_of(header.dataWindow());
   Image image(size.x, size.y);
-  const Imath::Box2i display = header.displayWindow();
+  const Imath::Box2i& display = header.displayWindow();
   image.full_size = size_of(display);
   image.offset = {header.dataWindow().min.x - display.min.x,
                   header.dataWindow().min.y - display.min.y};
@@ -167,7 +167,9 @@ void convert_primaries(const Imf::Header& header, Image& image) {
   if (!Imf::hasChromaticities(header) || !image.has_rgb()) return;
   const Imf::Chromaticities rec709;
   const Imf::Chromaticities& from = Imf::chromaticities(header);
-  const auto differs = [](Imath::V2f a, Imath::V2f b) { return (a - b).length() > 1e-3f; };
+  const auto differs = [](const Imath::V2f& a, const Imath::V2f& b) {
+    return (a - b).length() > 1e-3f;
+  };
   if (!differs(from.red, rec709.red) && !differs(from.green, rec709.green) &&
       !differs(from.blue, rec709.blue) && !differs(from.white, rec709.white)) {
     return;
@@ -246,7 +248,7 @@ Image decode_exr(std::string_view bytes) {
 
 std::string encode_exr(const Image& image, bool use_half) {
   const Imf::Header header = make_header(image, use_half);
-  const Imath::Box2i window = header.dataWindow();
+  const Imath::Box2i& window = header.dataWindow();
   const auto width = static_cast<size_t>(image.width());
   std::vector<std::vector<half>> halves;
   halves.reserve(image.channels().size());

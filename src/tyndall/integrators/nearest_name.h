@@ -15,6 +15,7 @@ std::string did_you_mean(std::string_view name, const std::vector<std::string_vi
 template <typename Map>
 std::vector<std::string_view> keys_of(const Map& map) {
   std::vector<std::string_view> keys;
+  keys.reserve(map.size());
   for (const auto& entry : map) keys.push_back(entry.first);
   return keys;
 }

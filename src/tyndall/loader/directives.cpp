@@ -177,6 +177,7 @@ const Directive* find_directive(std::string_view name) {
 
 std::vector<std::string_view> directive_names() {
   std::vector<std::string_view> names;
+  names.reserve(std::size(directives));
   for (const Directive& directive : directives) names.push_back(directive.name);
   return names;
 }

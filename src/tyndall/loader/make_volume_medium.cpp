@@ -45,7 +45,7 @@ void report_rejected(const ParameterSet& parameters, const PlacedGrid& placed,
 std::optional<PlacedGrid> read_density(ParameterSet& parameters, const std::string& path) {
   const std::string name = parameters.string("gridname", "density");
   const std::string_view names[] = {name};
-  const auto placed = read_or_report(parameters, [&] { return read_volume(path, names); });
+  auto placed = read_or_report(parameters, [&] { return read_volume(path, names); });
   if (!placed) return std::nullopt;
   report_rejected(parameters, *placed, "density");
   if (placed->grid->is_empty())

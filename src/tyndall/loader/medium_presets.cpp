@@ -117,6 +117,7 @@ std::optional<MediumPreset> medium_preset(std::string_view name) {
 
 std::vector<std::string_view> medium_preset_names() {
   std::vector<std::string_view> names;
+  names.reserve(std::size(presets));
   for (const MediumPreset& preset : presets) names.push_back(preset.name);
   return names;
 }

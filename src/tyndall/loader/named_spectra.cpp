@@ -90,6 +90,7 @@ std::optional<Rgb> named_spectrum(std::string_view name) {
 
 std::vector<std::string_view> spectrum_names() {
   std::vector<std::string_view> names;
+  names.reserve(std::size(materials) + std::size(illuminants));
   for (const Entry& entry : materials) names.push_back(entry.name);
   for (const Illuminant& light : illuminants) names.push_back(light.name);
   return names;

@@ -66,6 +66,7 @@ void Reporter::throw_if_errors() const {
     return sources_.is_before(a.first, b.first);
   });
   std::vector<Diagnostic> diagnostics;
+  diagnostics.reserve(ordered.size());
   for (auto& [where, error] : ordered) diagnostics.push_back(std::move(error));
   throw SceneError(std::move(diagnostics));
 }

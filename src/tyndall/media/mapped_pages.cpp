@@ -27,7 +27,8 @@ void release_mapped_pages(const std::filesystem::path& file) {
     // Pages that were written to would lose what they hold.
     if (found == 6 && access[1] == '-' && inode == status.st_ino &&
         device_major == major(status.st_dev) && device_minor == minor(status.st_dev))
-      ::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_DONTNEED);
+      ::madvise(reinterpret_cast<void*>(begin),  // NOLINT: the kernel writes numbers
+                end - begin, MADV_DONTNEED);
   }
 }
 

@@ -37,12 +37,11 @@ OverlappingMedia::Segments::Segments(const OverlappingMedia& media, const Ray& r
   for (const SingleMedium& medium : media.parts_)
     std::visit(
         [&](const auto& m) {
-          Part part{.walk = Walk(m.segments(ray, t_max)),
-                    .segment = {},
-                    .has_segment = false,
-                    .meets_anything = false,
-                    .is_active = false};
-          parts_.push_back(std::move(part));
+          parts_.push_back({.walk = Walk(m.segments(ray, t_max)),
+                            .segment = {},
+                            .has_segment = false,
+                            .meets_anything = false,
+                            .is_active = false});
         },
         medium);
   for (Part& part : parts_)

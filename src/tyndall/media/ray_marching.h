@@ -125,7 +125,7 @@ inline float exponential_of_mean(const float* x, const SeriesOrder& series) {
 inline int comb_size(float majorant_depth) {
   const float d = majorant_depth;
   const float samples = std::cbrt((0.015f + d) * (0.65f + d) * (60.3f + d)) / 1.32f;
-  return std::clamp(static_cast<int>(samples + 0.5f), 1, 128);
+  return std::clamp(static_cast<int>(std::lround(samples)), 1, 128);
 }
 
 /// Unbiased transmittance up to t_max by ray marching with jittered combs [KdPN21]: low

@@ -86,6 +86,7 @@ size_t find_grid(const std::vector<VolumeGridInfo>& grids,
 
 std::vector<VolumeGridInfo> infos_of(const std::vector<NanoVdbEntry>& entries) {
   std::vector<VolumeGridInfo> infos;
+  infos.reserve(entries.size());
   for (const NanoVdbEntry& entry : entries) infos.push_back(entry.info);
   return infos;
 }
