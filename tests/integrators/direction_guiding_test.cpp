@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "scenes.h"
 #include "support/statistical_tests.h"
 #include "tyndall/integrators/path_tracer.h"
@@ -129,6 +131,71 @@ TEST(DirectionGuidingTest, LearnsAndReports) {
   EXPECT_EQ(s.counters.at("guiding.samples.rejected"), 0);
   EXPECT_GT(s.counters.at("guiding.memory_bytes"), 0);
   EXPECT_LT(s.counters.at("guiding.memory_bytes"), 256 << 20);
+}
+
+// Six lamps around, of which black spheres hide all but the first.
+SceneDescription lamps_in_boxes() {
+  SceneDescription d = lamp_over_disk();
+  for (int i = 0; i < 5; ++i) {
+    const float angle = 1.2f * static_cast<float>(i);
+    const Vec3 p{1.5f * std::cos(angle), 1.5f * std::sin(angle), 0.5f};
+    d.lights.push_back(Light(PointLight{p, Rgb(5)}));
+    d.surfaces.push_back(test::boundary_sphere(0.05f, p, 0, 0));
+    d.surfaces.back().material = DiffuseBsdf{Rgb(0)};
+  }
+  return d;
+}
+
+// Samples around the middle of the scene that found light of lamp 0 only.
+TEST(DirectionGuidingTest, LearnsWhichLightsContribute) {
+  const Scene scene(lamps_in_boxes());
+  DirectionGuiding guiding(scene, connection_settings("zhou2016", {}));
+  guiding.prepare(0);
+  for (uint64_t key = 0; key < 6000; ++key) {
+    RandomStream random(hash(key));
+    TrainingSample s;
+    s.key = key;
+    const float x = random.next_1d(), y = random.next_1d(), z = random.next_1d();
+    s.p = {x - 0.5f, y - 0.5f, z - 0.5f};
+    const auto light = static_cast<size_t>(key % 6);
+    const Vec3 to_light = std::get<PointLight>(scene.lights()[light].variant()).p - s.p;
+    s.light_distance = length(to_light);
+    s.light_direction = to_light / s.light_distance;
+    s.wi = s.light_direction;
+    s.weight = light == 0 ? 1 : 0;
+    s.pdf = s.mixture_pdf = s.joint_pdf = s.phase_pdf = 1;
+    s.cluster = guiding.cluster_of(light);
+    ASSERT_TRUE(guiding.wants(key));
+    guiding.record(s);
+  }
+  guiding.prepare(1);
+  const LightChoice choice(scene.lights(), scene.bounds());
+  const Vec3 p{0.1f, 0, 0.1f};
+  const LightProbabilities blind = choice.at_point(p), wise = guiding.choose(blind, p);
+  EXPECT_GT(wise.probability(0), 0.5f);
+  float sum = 0;
+  for (size_t i = 0; i < 6; ++i) {
+    sum += wise.probability(i);
+    // Half of the choice stays as it was.
+    EXPECT_GT(wise.probability(i), 0.49f * blind.probability(i));
+  }
+  EXPECT_NEAR(sum, 1, 1e-5f);
+  // Where nothing was learned, nothing changes.
+  EXPECT_EQ(guiding.choose(blind, {50, 0, 0}).probability(3), blind.probability(3));
+}
+
+TEST(DirectionGuidingTest, LightsThatAreChosenByWhatTheyContributedAreNoBias) {
+  const Scene scene(lamps_in_boxes());
+  PathTracer guided(scene, order_two(1), connection_settings("zhou2016", {}));
+  for (uint32_t first = 0, next = 0; first < 64; first = next) {
+    next = guided.prepare(first);
+    mean_of(scene, guided, first, next - first, 1);
+  }
+  guided.prepare(64);
+  const RunningMoments learned = mean_of(scene, guided, 64, 600, 2);
+  const auto volpath = make_integrator(scene, order_two(1, "volpath"));
+  const RunningMoments reference = mean_of(scene, *volpath, 0, 4000, 1);
+  EXPECT_GT(welch_p_value(reference, learned), 0.005);
 }
 
 TEST(DirectionGuidingTest, AllLightsHiddenTeachNothing) {

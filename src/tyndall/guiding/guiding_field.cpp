@@ -8,13 +8,6 @@ std::span<const float> GuidingField::probabilities(const GuidingRecord& record) 
   return std::span(cluster_probability_).subspan(index * clusters_, clusters_);
 }
 
-ClusterSample GuidingField::sample_cluster(const GuidingRecord& record, float u) const {
-  const std::span<const float> p = probabilities(record);
-  uint32_t k = 0;
-  while (k + 1 < p.size() && u >= p[k]) u -= p[k++];
-  return {k, p[k]};
-}
-
 float GuidingField::cluster_probability(const GuidingRecord& record,
                                         uint32_t cluster) const {
   return probabilities(record)[cluster];

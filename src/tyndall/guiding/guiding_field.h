@@ -51,12 +51,6 @@ struct GuidingRecord {
   uint32_t guides = 0;  ///< how many clusters it has a guide for
 };
 
-/// A cluster of lights drawn by what it contributes.
-struct ClusterSample {
-  uint32_t cluster;
-  float probability;
-};
-
 /// The learned state that one pass reads while the next one is trained. Immutable.
 class GuidingField {
  public:
@@ -73,8 +67,7 @@ class GuidingField {
       if (guide_cluster_[i] == cluster) return &guides_[i];
     return nullptr;
   }
-  /// Draws a cluster by its learned contribution around the record.
-  ClusterSample sample_cluster(const GuidingRecord& record, float u) const;
+  /// The cluster's share of the learned contributions around the record; positive.
   float cluster_probability(const GuidingRecord& record, uint32_t cluster) const;
 
   std::span<const GuidingRecord> records() const { return records_; }

@@ -2,6 +2,8 @@
 #include "tyndall/integrators/direction_guiding.h"
 
 #include <algorithm>
+#include <array>
+#include <boost/container/small_vector.hpp>
 
 #include "tyndall/guiding/light_clusters.h"
 #include "tyndall/integrators/integrator.h"
@@ -62,6 +64,20 @@ DirectionGuiding::DirectionGuiding(const Scene& scene, const ConnectionSettings&
 const DirectionGuide* DirectionGuiding::find(Vec3 p, size_t light) const {
   const GuidingRecord* record = field_->find(p);
   return record ? field_->guide(*record, cluster_of_[light]) : nullptr;
+}
+
+LightProbabilities DirectionGuiding::choose(const LightProbabilities& blind, Vec3 p) const {
+  const GuidingRecord* record = blind.size() > 1 ? field_->find(p) : nullptr;
+  if (!record || field_->clusters() < 2) return blind;
+  std::array<float, max_clusters> share{};
+  for (size_t i = 0; i < blind.size(); ++i) share[cluster_of_[i]] += blind.probability(i);
+  boost::container::small_vector<float, 32> factors(blind.size());
+  for (size_t i = 0; i < blind.size(); ++i) {
+    const uint32_t k = cluster_of_[i];
+    const float learned = field_->cluster_probability(*record, k);
+    factors[i] = share[k] > 0 ? 0.5f + 0.5f * learned / share[k] : 0;
+  }
+  return blind.reweighed({factors.data(), factors.size()});
 }
 
 void DirectionGuiding::start_pretraining() { is_recording_ = !settings_.known_directions; }

@@ -8,6 +8,7 @@
 #include "tyndall/integrators/connection_settings.h"
 #include "tyndall/integrators/render.h"
 #include "tyndall/integrators/training_log.h"
+#include "tyndall/scene/light_choice.h"
 
 namespace tyndall {
 
@@ -24,6 +25,10 @@ class DirectionGuiding {
   /// What is known of the light around p; null if nothing.
   const DirectionGuide* find(Vec3 p, size_t light) const;
   uint32_t cluster_of(size_t light) const { return cluster_of_[light]; }
+  /// Probabilities of lights to connect to around p, given those that know nothing of what
+  /// hides them: divided anew among the clusters, in half by what each has contributed
+  /// there.
+  LightProbabilities choose(const LightProbabilities& blind, Vec3 p) const;
 
   /// Whether a training sample of this key will be kept.
   bool wants(uint64_t key) const { return is_recording_ && log_.wants(key); }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tyndall/math/constants.h"
 #include "tyndall/math/fast_angle.h"
 
 namespace tyndall {
@@ -89,6 +90,17 @@ std::optional<SelectedLight> LightProbabilities::select(const std::vector<Light>
 float LightProbabilities::probability(size_t index) const {
   if (cdf_.empty()) return 0;
   return index == 0 ? cdf_[0] : cdf_[index] - cdf_[index - 1];
+}
+
+LightProbabilities LightProbabilities::reweighed(std::span<const float> factors) const {
+  LightProbabilities result;
+  float total = 0;
+  for (size_t i = 0; i < cdf_.size(); ++i)
+    result.cdf_.push_back(total += probability(i) * factors[i]);
+  if (!(total > 0 && total < infinity)) return *this;
+  for (float& c : result.cdf_) c /= total;
+  result.cdf_.back() = 1;
+  return result;
 }
 
 }  // namespace tyndall

@@ -3,6 +3,7 @@
 
 #include <boost/container/small_vector.hpp>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "tyndall/geometry/ray.h"
@@ -24,6 +25,10 @@ class LightProbabilities {
   /// Empty if no light can reach the place.
   std::optional<SelectedLight> select(const std::vector<Light>& lights, float u) const;
   float probability(size_t index) const;
+  size_t size() const { return cdf_.size(); }
+  /// Each times a factor that is not negative, one for each light, and made to sum to one
+  /// again; unchanged if nothing would be left.
+  LightProbabilities reweighed(std::span<const float> factors) const;
 
  private:
   friend class LightChoice;
