@@ -92,6 +92,11 @@ TEST(LoadShapeTest, BilinearMeshesFaceByTheirCorners) {
 TEST(LoadShapeTest, InvisibleShapesAreLeftOut) {
   EXPECT_TRUE(parse_world("Shape \"sphere\" \"float alpha\" 0").scene.surfaces.empty());
   EXPECT_EQ(parse_world("Shape \"sphere\" \"float alpha\" 1").scene.surfaces.size(), 1u);
+  EXPECT_EQ(surface_of("Shape \"sphere\" \"float alpha\" .25").alpha, 0.25f);
+  EXPECT_EQ(surface_of("Texture \"half\" \"float\" \"constant\" \"float value\" .5 "
+                       "Shape \"sphere\" \"texture alpha\" \"half\"")
+                .alpha,
+            0.5f);
   // The light of an invisible lamp is not lost.
   const LoadedScene lamp = parse_world(
       "AreaLightSource \"diffuse\" \"rgb L\" [1 2 3] \"bool twosided\" true "

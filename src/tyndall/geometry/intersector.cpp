@@ -12,6 +12,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "tyndall/sampling/random.h"
+
 namespace tyndall {
 namespace {
 
@@ -100,6 +102,15 @@ void drop_hit_of_ends(const RTCFilterFunctionNArguments* args) {
     args->valid[0] = 0;
 }
 
+// The same for shapes that only some rays meet.
+void drop_hit_of_translucent(const RTCFilterFunctionNArguments* args) {
+  drop_hit_of_ends(args);
+  const auto& hit = *reinterpret_cast<const RTCHit*>(args->hit);
+  const PreciseRay ray = RayContext::of(args->context).current_ray();
+  if (args->valid[0] && !target_of(args->geometryUserPtr).is_met_by(ray, hit.primID))
+    args->valid[0] = 0;
+}
+
 // The same for boundaries, which are noted and dropped where they do not stop the ray.
 void filter_boundary(const RTCFilterFunctionNArguments* args) {
   drop_hit_of_ends(args);
@@ -178,8 +189,9 @@ void occlude_user_geometry(const RTCOccludedFunctionNArguments* args) {
     ray.tfar = -infinity;
 }
 
-Handle<RTCGeometry> new_triangles(RTCDevice device, const TriangleMesh& mesh,
+Handle<RTCGeometry> new_triangles(RTCDevice device, const TargetShape& target,
                                   bool is_boundary, bool is_instanced) {
+  const TriangleMesh& mesh = *target.mesh();
   Handle<RTCGeometry> geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
   void* vertices =
       rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
@@ -191,11 +203,13 @@ Handle<RTCGeometry> new_triangles(RTCDevice device, const TriangleMesh& mesh,
                              mesh.triangles().size());
   // In the world intersect() checks the closest hit itself, which costs less than a
   // callback for each; an occlusion test does not tell what it hit.
-  rtcSetGeometryOccludedFilterFunction(geometry.get(), drop_hit_of_ends);
+  const RTCFilterFunctionN drop =
+      target.is_translucent() ? drop_hit_of_translucent : drop_hit_of_ends;
+  rtcSetGeometryOccludedFilterFunction(geometry.get(), drop);
   if (is_boundary)
     rtcSetGeometryIntersectFilterFunction(geometry.get(), filter_boundary);
-  else if (is_instanced)
-    rtcSetGeometryIntersectFilterFunction(geometry.get(), drop_hit_of_ends);
+  else if (is_instanced || target.is_translucent())
+    rtcSetGeometryIntersectFilterFunction(geometry.get(), drop);
   return geometry;
 }
 
@@ -339,14 +353,14 @@ class Intersector::Impl {
     Handle<RTCScene> scene = new_scene();
     targets.reserve(group.size());
     for (size_t i = 0; i < group.size(); ++i) {
-      TargetShape& target = targets.emplace_back(*group[i].shape);
-      const size_t primitives = target.primitive_count();
       const bool is_boundary = group[i].is_boundary;
+      TargetShape& target = targets.emplace_back(
+          *group[i].shape, is_boundary ? 1 : group[i].alpha, hash(scenes_.size(), i));
+      const size_t primitives = target.primitive_count();
       if (primitives == 0) continue;
       const Handle<RTCGeometry> handle =
-          target.mesh()
-              ? new_triangles(device_.get(), *target.mesh(), is_boundary, is_instanced)
-              : new_user_geometry(device_.get(), primitives, is_boundary);
+          target.mesh() ? new_triangles(device_.get(), target, is_boundary, is_instanced)
+                        : new_user_geometry(device_.get(), primitives, is_boundary);
       rtcSetGeometryUserData(handle.get(), &target);
       rtcSetGeometryMask(handle.get(), mask_of(group[i]));
       rtcCommitGeometry(handle.get());

@@ -33,6 +33,9 @@ class Intersector {
   struct Member {
     const Shape* shape;  ///< must outlive the intersector
     bool is_boundary;
+    /// The share of rays that meet it; which do is the same in all queries of a ray.
+    /// Boundaries are met by all.
+    float alpha = 1;
   };
   using Group = std::vector<Member>;
   struct Instance {

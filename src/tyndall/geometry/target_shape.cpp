@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tyndall/geometry/target_shape.h"
 
+#include <bit>
 #include <cmath>
+
+#include "tyndall/sampling/random.h"
 
 namespace tyndall {
 namespace {
@@ -17,10 +20,13 @@ float longest_edge_of(const TriangleMesh& mesh) {
   return static_cast<float>(std::sqrt(longest2));
 }
 
+// As often as a line can meet one curved primitive.
+constexpr int max_hits_of_primitive = 2;
+
 }  // namespace
 
-TargetShape::TargetShape(const Shape& shape)
-    : shape_(&shape), mesh_(std::get_if<TriangleMesh>(&shape)) {
+TargetShape::TargetShape(const Shape& shape, float alpha, uint64_t salt)
+    : shape_(&shape), mesh_(std::get_if<TriangleMesh>(&shape)), alpha_(alpha), salt_(salt) {
   if (mesh_) longest_edge_ = longest_edge_of(*mesh_);
   if (const auto* sphere = std::get_if<Sphere>(&shape))
     quadric_.emplace<SphereIntersector>(*sphere);
@@ -46,8 +52,31 @@ Bounds3 TargetShape::primitive_bounds(uint32_t primitive) const {
   return b;
 }
 
+bool TargetShape::is_met_by(const PreciseRay& ray, uint32_t primitive, int n) const {
+  const auto bits = [](double x) { return std::bit_cast<uint64_t>(x); };
+  const uint64_t h = hash(bits(ray.o.x), bits(ray.o.y), bits(ray.o.z), bits(ray.d.x),
+                          bits(ray.d.y), bits(ray.d.z), salt_, primitive, n);
+  return uniform_float(static_cast<uint32_t>(h >> 32)) < alpha_;
+}
+
 std::optional<PreciseHit> TargetShape::intersect(uint32_t primitive, const PreciseRay& ray,
                                                  double t_max) const {
+  if (!is_translucent()) return closest(primitive, ray, t_max);
+  PreciseRay rest = ray;
+  double t = 0;
+  for (int n = 0; n < max_hits_of_primitive; ++n) {
+    std::optional<PreciseHit> hit = closest(primitive, rest, t_max - t);
+    if (!hit) return std::nullopt;
+    hit->t += t;
+    if (is_met_by(ray, primitive, n)) return hit;
+    t = hit->t;
+    rest.o = hit->p;
+  }
+  return std::nullopt;
+}
+
+std::optional<PreciseHit> TargetShape::closest(uint32_t primitive, const PreciseRay& ray,
+                                               double t_max) const {
   if (const auto* sphere = std::get_if<SphereIntersector>(&quadric_))
     return sphere->intersect(ray, t_max);
   if (const auto* disk = std::get_if<DiskIntersector>(&quadric_))
@@ -57,6 +86,10 @@ std::optional<PreciseHit> TargetShape::intersect(uint32_t primitive, const Preci
 
 std::optional<double> TargetShape::distance(uint32_t primitive, const PreciseRay& ray,
                                             double t_max) const {
+  if (is_translucent()) {
+    const std::optional<PreciseHit> hit = intersect(primitive, ray, t_max);
+    return hit ? std::optional(hit->t) : std::nullopt;
+  }
   if (const auto* sphere = std::get_if<SphereIntersector>(&quadric_))
     return sphere->distance(ray, t_max);
   if (const auto* disk = std::get_if<DiskIntersector>(&quadric_))

@@ -15,7 +15,9 @@ namespace tyndall {
 /// A shape with all that rays need of it, computed once.
 class TargetShape {
  public:
-  explicit TargetShape(const Shape& shape);
+  /// A ray meets the shape with the probability `alpha`, as if the shape had holes: a hash
+  /// of the ray and of `salt`, another number for each shape, decides.
+  explicit TargetShape(const Shape& shape, float alpha = 1, uint64_t salt = 0);
 
   const Shape& shape() const { return *shape_; }
   /// The shape as a triangle mesh, null if it is another one.
@@ -26,6 +28,12 @@ class TargetShape {
   size_t primitive_count() const;
   /// Of a shape that is no mesh of triangles; empty if it is not finite.
   Bounds3 primitive_bounds(uint32_t primitive) const;
+
+  /// Whether rays meet the shape by chance only.
+  bool is_translucent() const { return alpha_ < 1; }
+  /// Whether the ray meets, rather than goes through, the n-th hit that it has with a
+  /// primitive. The same whenever it is asked for the same ray.
+  bool is_met_by(const PreciseRay& ray, uint32_t primitive, int n = 0) const;
 
   /// The closest hit at a distance in (0, t_max). Precondition: mesh() is null.
   std::optional<PreciseHit> intersect(uint32_t primitive, const PreciseRay& ray,
@@ -51,10 +59,15 @@ class TargetShape {
   }
 
  private:
+  std::optional<PreciseHit> closest(uint32_t primitive, const PreciseRay& ray,
+                                    double t_max) const;
+
   const Shape* shape_;
   const TriangleMesh* mesh_;
   std::variant<std::monostate, SphereIntersector, DiskIntersector> quadric_;
   float longest_edge_ = 0;
+  float alpha_;
+  uint64_t salt_;
 };
 
 }  // namespace tyndall

@@ -107,8 +107,8 @@ class SceneBuilder {
   void restore(Scope scope, std::string_view begin);
   void check_transform(const Transform& transform) const;
   std::vector<PendingSurface>& target_surfaces();
-  void add_surface(const std::string& type, Shape shape, ParameterSet& parameters);
-  bool is_invisible(ParameterSet& parameters) const;
+  void add_surface(const std::string& type, Shape shape, float alpha,
+                   ParameterSet& parameters);
   void add_hidden_emitter(Shape shape);
 
   void check_complete(Span end);

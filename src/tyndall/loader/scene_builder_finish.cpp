@@ -49,6 +49,9 @@ Material SceneBuilder::resolved(const MaterialReference& reference) {
 Surface SceneBuilder::resolved(PendingSurface pending) {
   Surface surface = std::move(pending.surface);
   surface.material = resolved(pending.material);
+  if (surface.alpha < 1 && std::holds_alternative<InterfaceBsdf>(surface.material))
+    reporter_.unsupported(pending.material.where,
+                          "alpha on the boundary of a medium is not supported");
   surface.media = {medium_index(pending.media.inside, pending.media.where),
                    medium_index(pending.media.outside, pending.media.where),
                    pending.media.is_stated};

@@ -59,23 +59,6 @@ void SceneBuilder::area_light_source(const std::string& type, ParameterSet param
   parameters.report_unknown();
 }
 
-// pbrt-v4 lets rays through where alpha is zero. A light of such a shape still shines.
-bool SceneBuilder::is_invisible(ParameterSet& parameters) const {
-  const Parameter* alpha =
-      parameters.find("alpha", {ParameterType::number, ParameterType::texture});
-  if (!alpha) return false;
-  if (alpha->type == ParameterType::texture) {
-    parameters.unsupported("alpha",
-                           "an alpha texture is not supported yet; the shape is opaque");
-    return false;
-  }
-  const float value = parameters.number("alpha", 1, {0, 1});
-  if (value != 0 && value != 1)
-    parameters.unsupported(
-        "alpha", "alpha between 0 and 1 is not supported yet; the shape is opaque");
-  return value == 0;
-}
-
 std::vector<SceneBuilder::PendingSurface>& SceneBuilder::target_surfaces() {
   return is_in_object_ ? objects_.back() : surfaces_;
 }
@@ -83,13 +66,14 @@ std::vector<SceneBuilder::PendingSurface>& SceneBuilder::target_surfaces() {
 void SceneBuilder::shape(const std::string& type, ParameterSet parameters) {
   std::optional<Shape> shape =
       make_shape(type, parameters, state_.ctm, state_.reverse_orientation, files_);
-  const bool is_hidden = is_invisible(parameters);
+  // As in pbrt-v4, no ray meets what has no alpha, but its light still shines.
+  const float alpha = textures_.number(parameters, "alpha", 1, {0, 1});
   parameters.report_unknown();
   if (!shape) return;
-  if (is_hidden)
+  if (alpha == 0)
     add_hidden_emitter(std::move(*shape));
   else
-    add_surface(type, std::move(*shape), parameters);
+    add_surface(type, std::move(*shape), alpha, parameters);
 }
 
 void SceneBuilder::add_hidden_emitter(Shape shape) {
@@ -98,7 +82,7 @@ void SceneBuilder::add_hidden_emitter(Shape shape) {
     hidden_emitters_.push_back({std::move(part), emission.value()});
 }
 
-void SceneBuilder::add_surface(const std::string& type, Shape shape,
+void SceneBuilder::add_surface(const std::string& type, Shape shape, float alpha,
                                ParameterSet& parameters) {
   const SourceLocation at = reporter_.sources().locate(directive_);
   const std::string name = fmt::format("{} at {}:{}:{}", type, at.file, at.line, at.column);
@@ -109,9 +93,10 @@ void SceneBuilder::add_surface(const std::string& type, Shape shape,
                     parameters.owner()));
   for (auto& [part, emission] :
        with_emission(std::move(shape), is_in_object_ ? std::nullopt : state_.area_light)) {
-    target_surfaces().push_back({{std::move(part), DiffuseBsdf{}, {}, emission, name},
-                                 state_.material,
-                                 state_.media});
+    target_surfaces().push_back(
+        {{std::move(part), DiffuseBsdf{}, {}, emission, name, alpha},
+         state_.material,
+         state_.media});
   }
 }
 

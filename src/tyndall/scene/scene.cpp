@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <utility>
 
 #include "tyndall/sampling/tabulated.h"
@@ -25,7 +26,7 @@ Intersector::Group make_group(const std::vector<Surface>& surfaces) {
   Intersector::Group group;
   group.reserve(surfaces.size());
   for (const Surface& surface : surfaces)
-    group.push_back({&surface.shape, is_boundary(surface)});
+    group.push_back({&surface.shape, is_boundary(surface), surface.alpha});
   return group;
 }
 
@@ -49,6 +50,11 @@ bool any_boundary(const SceneDescription& description) {
   for (const std::vector<Surface>& object : description.objects)
     any = any || std::ranges::any_of(object, is_boundary);
   return any;
+}
+
+Light area_light(const Surface& surface, Rgb L) {
+  return Light(
+      AreaLight{.shape = &surface.shape, .L = L, .two_sided = surface.emission->two_sided});
 }
 
 }  // namespace
@@ -79,8 +85,14 @@ class Scene::Impl {
     return {.t = hit.t,
             .point = intersector.resolve(ray, hit).point,
             .surface = &surface(hit.group, hit.shape),
-            .light = light == no_light ? nullptr : &lights[light],
+            .light = light == no_light ? nullptr : seen_light(light),
             .light_index = light};
+  }
+
+  // A lamp as a ray sees it that has met it.
+  const Light* seen_light(size_t light) const {
+    const auto found = met_lights.find(light);
+    return found == met_lights.end() ? &lights[light] : &found->second;
   }
 
   std::optional<SurfaceHit> intersect(const Ray& ray, float t_max, RayMask mask) const {
@@ -130,6 +142,7 @@ class Scene::Impl {
   bool has_boundaries;
   Bounds3 bounds;
   std::vector<Light> lights;
+  std::map<size_t, Light> met_lights;    // those that alpha dims, undimmed
   std::vector<size_t> environments;      // indices of lights that rays can escape to
   std::vector<size_t> light_of_surface;  // or no_light
   std::optional<size_t> volume_light;    // index
@@ -146,9 +159,9 @@ class Scene::Impl {
       const Surface& surface = description.surfaces[i];
       if (!surface.emission || is_black(surface.emission->L)) continue;
       light_of_surface[i] = lights.size();
-      lights.emplace_back(AreaLight{.shape = &surface.shape,
-                                    .L = surface.emission->L,
-                                    .two_sided = surface.emission->two_sided});
+      const Rgb L = surface.emission->L;
+      if (surface.alpha < 1) met_lights.emplace(lights.size(), area_light(surface, L));
+      lights.push_back(area_light(surface, L * surface.alpha));
     }
     for (const HiddenEmitter& hidden : description.hidden_emitters)
       if (!is_black(hidden.emission.L))

@@ -37,6 +37,9 @@ struct Surface {
   MediumInterface media;
   std::optional<AreaEmission> emission;
   std::string name;  ///< for messages: "trianglemesh at scene.pbrt:12:1"
+  /// The share of rays that meet the surface; the others go on as if it were not there. A
+  /// lamp shines only as much. Boundaries between media are met by all.
+  float alpha = 1;
 };
 
 /// A light in the shape of a surface that no ray ever meets.
