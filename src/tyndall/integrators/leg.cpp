@@ -22,7 +22,7 @@ Leg::Leg(const Scene& scene, const Ray& ray, const Medium* medium)
     : scene_(&scene), ray_(ray), medium_(medium) {}
 
 void Leg::trace() {
-  if (spans_.empty()) found_ = scene_->trace(ray_, far_distance, medium_, spans_);
+  if (spans_.empty()) found_ = scene_->trace(ray_, t_max_, medium_, spans_);
 }
 
 const Leg::Span* Leg::span(size_t i) {

@@ -25,6 +25,8 @@ class Leg {
   const Span* span(size_t i);
   /// The surface at the end; null if the leg leaves the scene.
   const SurfaceHit* end();
+  /// Follows the ray no farther than t. To be called before anything is asked of the leg.
+  void limit(float t) { t_max_ = t; }
   /// Length of the whole leg, far_distance if it leaves the scene.
   float length();
   /// The medium at its end.
@@ -35,6 +37,7 @@ class Leg {
 
   const Scene* scene_;
   Ray ray_;
+  float t_max_ = far_distance;
   MediumSpans spans_;  // empty until traced
   std::optional<FoundSurface> found_;
   std::optional<SurfaceHit> end_;  // once somebody asks

@@ -60,15 +60,17 @@ void Path::look_at_end(Leg& leg) {
 bool Path::advance(Leg& leg) {
   vertex_.reset();
   add_glow(leg);
-  for (size_t i = 0; const Leg::Span* span = leg.span(i); ++i) {
-    if (!span->medium) continue;
-    medium_ = span->medium;
-    if (const std::optional<float> t = sample_collision(leg.ray(), *span)) {
-      ++order_;
-      vertex_.emplace(leg.ray().at(*t), -ray_.d, span->medium);
-      return arrive(*t);
+  if (rules_.filling) {
+    if (const std::optional<float> t = fly_freely(leg))
+      return meet_medium(*t, rules_.filling);
+  } else {
+    for (size_t i = 0; const Leg::Span* span = leg.span(i); ++i) {
+      if (!span->medium) continue;
+      medium_ = span->medium;
+      if (const std::optional<float> t = sample_collision(leg.ray(), *span))
+        return meet_medium(*t, span->medium);
+      if (is_black(beta_)) return false;
     }
-    if (is_black(beta_)) return false;
   }
   medium_ = leg.end_medium();
   const SurfaceHit* hit = leg.end();
@@ -79,6 +81,24 @@ bool Path::advance(Leg& leg) {
   if (!saw_end_) add_surface_emission(*hit);
   vertex_.emplace(*hit, -ray_.d, medium_);
   return arrive(hit->t);
+}
+
+// Draws the free flight first, and follows the ray no farther: empty if it meets a surface.
+std::optional<float> Path::fly_freely(Leg& leg) {
+  const Rgb beta = beta_;
+  const std::optional<float> t =
+      sample_collision(leg.ray(), {0, far_distance, rules_.filling});
+  if (!t) return std::nullopt;
+  leg.limit(*t);
+  if (!leg.end()) return t;
+  beta_ = beta;
+  return std::nullopt;
+}
+
+bool Path::meet_medium(float t, const Medium* medium) {
+  ++order_;
+  vertex_.emplace(ray_.at(t), -ray_.d, medium);
+  return arrive(t);
 }
 
 // At vertex_, which stands at distance t along the leg. False if the path ends there.

@@ -22,6 +22,9 @@ struct PathRules {
   ScatteringOrders orders;
   bool is_chromatic;      ///< some medium differs between the colour channels
   bool walks_find_light;  ///< something that glows is not a Dirac delta
+  /// A grey homogeneous medium that fills the scene, where walks need to know no more of
+  /// their legs than what they collide with; null otherwise.
+  const Medium* filling = nullptr;
   const ConnectionContext* connections;  ///< null: next event estimation only
   const ConnectionBudget* budget;        ///< null: each connection once
   bool sees_through =
@@ -68,6 +71,8 @@ class Path {
   int legs() const { return depth_ + 1; }
 
  private:
+  bool meet_medium(float t, const Medium* medium);
+  std::optional<float> fly_freely(Leg& leg);
   std::optional<float> sample_collision(const Ray& ray, const Leg::Span& span);
   void collide(const MediumProperties& properties, Rgb relative_transmittance);
   void pass(Rgb factor);

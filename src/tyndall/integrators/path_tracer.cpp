@@ -26,6 +26,14 @@ bool can_be_hit(const Light& light) {
   return light.is_environment() || std::holds_alternative<AreaLight>(light.variant());
 }
 
+// See PathRules.
+const Medium* filling(const Scene& scene) {
+  const Medium* medium = scene.has_boundaries() ? nullptr : scene.camera_medium();
+  const bool is_simple =
+      medium && medium->is_homogeneous() && medium->is_grey() && !scene.has_glow();
+  return is_simple ? medium : nullptr;
+}
+
 }  // namespace
 
 PathTracer::PathTracer(const Scene& scene, const RenderSettings& settings,
@@ -40,6 +48,7 @@ PathTracer::PathTracer(const Scene& scene, const RenderSettings& settings,
           .walks_find_light =
               std::ranges::any_of(scene.description().media, &Medium::is_emissive) ||
               std::ranges::any_of(scene.lights(), can_be_hit),
+          .filling = filling(scene),
           .connections = nullptr,
           .budget = nullptr},
       plain_rules_(rules_) {
@@ -53,6 +62,7 @@ PathTracer::PathTracer(const Scene& scene, const RenderSettings& settings,
   }
   connections_.emplace(scene, useful);
   rules_.connections = &*connections_;
+  rules_.filling = nullptr;
   budget_.emplace(pilot_radiance(), resolution_,
                   connections_->visibility() ? overhead_of_visibility : overhead);
   rules_.budget = &*budget_;
