@@ -93,8 +93,8 @@ ConnectionLeg::ConnectionLeg(const ConnectionContext& context, const Pivots& piv
 const LightProbabilities& ConnectionLeg::lights() {
   if (!lights_) {
     lights_ = context_->light_choice().along(ray_, proxy_.t_min(), t_max_);
-    if (const DirectionGuiding* guiding = context_->guiding())
-      lights_ = guiding->choose(*lights_, ray_.at(proxy_.distance_to(0.5f)));
+    const DirectionGuiding* guiding = lights_->size() > 1 ? context_->guiding() : nullptr;
+    if (guiding) lights_ = guiding->choose(*lights_, ray_.at(proxy_.distance_to(0.5f)));
   }
   return *lights_;
 }

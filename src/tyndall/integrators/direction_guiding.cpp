@@ -67,7 +67,7 @@ const DirectionGuide* DirectionGuiding::find(Vec3 p, size_t light) const {
 }
 
 LightProbabilities DirectionGuiding::choose(const LightProbabilities& blind, Vec3 p) const {
-  const GuidingRecord* record = blind.size() > 1 ? field_->find(p) : nullptr;
+  const GuidingRecord* record = field_->find(p);
   if (!record || field_->clusters() < 2) return blind;
   std::array<float, max_clusters> share{};
   for (size_t i = 0; i < blind.size(); ++i) share[cluster_of_[i]] += blind.probability(i);
