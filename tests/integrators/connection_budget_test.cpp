@@ -30,7 +30,7 @@ void record(ConnectionBudget& budget, const Half& left, const Half& right) {
         const float noise = half.brightness * half.noise;
         budget.record(region, Effort::single, 0, half.brightness * 0.5f + sign * noise);
         budget.record_pair(region, Effort::single, 0, noise * noise);
-        budget.record_path(region,
+        budget.record_path({x, y},
                            {.value = half.brightness * (1 + sign * half.walk), .legs = 1});
       }
     }
@@ -53,11 +53,12 @@ TEST(ConnectionBudget, EveryPixelHasARegion) {
 }
 
 TEST(ConnectionBudget, ConnectsAsOftenAsItPays) {
-  // sqrt(M / c * C / V), with the costs of a single connection and of a leg, 2 and 2.5.
+  // sqrt(M / c * C / V), with the costs of a single connection and of a leg, 2.8 and 3.5.
   const float walk = 0.5f, noise = 1;
   ConnectionBudget budget(1, size);
   record(budget, {1, walk, noise}, {1, walk, noise});
-  const float expected = std::sqrt(noise * noise / 2 * 2.5f / (walk * walk));
+  const float variance = walk * walk * paths / (paths - 1);
+  const float expected = std::sqrt(noise * noise / 2.8f * 3.5f / variance);
   EXPECT_NEAR(budget.count(budget.region({9, 9}), Effort::single, 0), expected, 1e-3);
   EXPECT_NEAR(budget.mean_count(Effort::single, 0), double{expected}, 1e-3);
 }
@@ -67,7 +68,30 @@ TEST(ConnectionBudget, CountsAllThatAConnectionFindsWhereItIsLeftToChance) {
   ConnectionBudget budget(1, size);
   record(budget, {1, 1, 0}, {1, 1, 0});
   EXPECT_NEAR(budget.count(budget.region({9, 9}), Effort::single, 0),
-              std::sqrt(0.25f / 2 * 2.5f), 1e-3);
+              std::sqrt(0.25f / 2.8f * 3.5f), 1e-3);
+}
+
+// Half of the pixels of a region find three times as much as the others: that does not vary
+// between the paths of a pixel.
+TEST(ConnectionBudget, DetailsOfThePictureAreNotNoise) {
+  ConnectionBudget budget(1, size);
+  for (int x = 0; x < size.x; ++x)
+    for (int i = 0; i < paths; ++i) {
+      const float sign = i % 2 == 0 ? 1.0f : -1.0f;
+      const float mean = x % 2 == 0 ? 0.5f : 1.5f;
+      budget.record_path({x, 0}, {.value = mean + 0.1f * sign, .legs = 2});
+    }
+  budget.update();
+  EXPECT_NEAR(budget.price(), 0.01 / 7, 0.02 * 0.01 / 7);
+}
+
+TEST(ConnectionBudget, WeighsRadianceByThatOfTheRegion) {
+  ConnectionBudget budget(1, size);
+  record(budget, {1, 0.5f, 1}, {4, 0.5f, 1});
+  const float dark = budget.relative(budget.region({9, 9}), 1);
+  const float bright = budget.relative(budget.region({50, 9}), 1);
+  EXPECT_NEAR(dark, 1, 0.1f);
+  EXPECT_NEAR(bright, 0.25f, 0.02f);
 }
 
 TEST(ConnectionBudget, DarkRegionsCountAsMuchAsBrightOnes) {
@@ -93,7 +117,7 @@ TEST(ConnectionBudget, HoldsOutAgainstFireflies) {
   ConnectionBudget budget(1, size);
   record(budget, {1, 0.5f, 0.1f}, {1, 0.5f, 0.1f});
   const float before = budget.count(budget.region({9, 9}), Effort::single, 0);
-  budget.record_path(0, {.value = INFINITY, .legs = 1, .noise = NAN});
+  budget.record_path({0, 0}, {.value = INFINITY, .legs = 1});
   budget.record(0, Effort::single, 0, NAN);
   budget.record_pair(0, Effort::single, 0, INFINITY);
   budget.update();
@@ -107,7 +131,7 @@ bool pays(float with, float spent, float without, double overhead = 1) {
     for (int i = 0; i < paths; ++i) {
       const size_t region = budget.region({x, 0});
       const float sign = i % 2 == 0 ? 1.0f : -1.0f;
-      budget.record_path(region, {.value = 1 + sign * with, .legs = 2, .spent = spent});
+      budget.record_path({x, 0}, {.value = 1 + sign * with, .legs = 2, .spent = spent});
       budget.record_plain_path(region, {.value = 1 + sign * without, .legs = 2});
     }
   budget.update();
@@ -131,7 +155,7 @@ TEST(ConnectionBudget, IsCarefulWithHeavyTails) {
       const float sign = i % 2 == 0 ? 1.0f : -1.0f;
       // Both sorts of plain paths have the variance 1.
       const float plain = is_rare ? (i % 1000 == 0 ? 32.6f : 0.97f) : 1 + sign;
-      budget.record_path(0, {.value = 1 + sign, .legs = 1, .spent = 3});
+      budget.record_path({0, 0}, {.value = 1 + sign, .legs = 1, .spent = 3});
       budget.record_plain_path(0, {.value = plain, .legs = 1});
     }
     budget.update();
@@ -157,7 +181,7 @@ bool lit_pays(float gain, float spent) {
   for (int i = 0; i < 2 * 4096; ++i) {
     const float value = i % 2 == 0 ? 2.0f : 0.0f;
     budget.record_path(
-        0,
+        {0, 0},
         {.value = value, .legs = 1, .spent = spent, .lit_gain = gain, .lit_spent = spent});
     budget.record_plain_path(0, {.value = value, .legs = 1});
   }
@@ -177,7 +201,7 @@ TEST(ConnectionBudget, DecidesOnce) {
   const auto trial = [&](float with) {
     for (int i = 0; i < 5000; ++i) {
       const float sign = i % 2 == 0 ? 1.0f : -1.0f;
-      budget.record_path(0, {.value = 1 + sign * with, .legs = 1, .spent = 3});
+      budget.record_path({0, 0}, {.value = 1 + sign * with, .legs = 1, .spent = 3});
       budget.record_plain_path(0, {.value = 1 + sign, .legs = 1});
     }
     budget.update();
@@ -190,7 +214,7 @@ TEST(ConnectionBudget, DecidesOnce) {
 TEST(ConnectionBudget, DoesNotJudgeByFewPaths) {
   ConnectionBudget budget(1, size);
   for (int i = 0; i < 3999; ++i) {
-    budget.record_path(0, {.value = i % 2 == 0 ? 2.0f : 0.0f, .legs = 1, .spent = 100});
+    budget.record_path({0, 0}, {.value = i % 2 == 0 ? 2.0f : 0.0f, .legs = 1, .spent = 100});
     budget.record_plain_path(0, {.value = 1, .legs = 1});
   }
   budget.update();

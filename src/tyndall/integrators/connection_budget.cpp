@@ -11,13 +11,17 @@ namespace {
 
 // Rays that one connection, one leg of the walk with its next event estimation, and the
 // mere possibility of connections from a leg cost.
-constexpr std::array<double, 6> effort_cost{2, 4, 4, 3, 4, 3};
+constexpr std::array<double, 6> effort_cost{2, 6, 4, 3, 4, 3};
 constexpr double leg_cost = 2.5, possible_cost = 1;
+
+// What one connection more costs, in units of its rays: less than the overhead over all,
+// most of which is for the first of a leg. Measured: the best of 1, 1.4, 2 and 2.8.
+constexpr double more_of_a_kind = 1.4;
 
 // Connections are given up if they leave less than this share of the efficiency of plain
 // paths, whose variance is taken for as large as it may well be.
 constexpr double least_efficiency = 0.85;
-constexpr double least_paths = 4000;  // to judge by
+constexpr double least_paths = 4000, least_paths_for_price = 256;  // to judge by
 constexpr double tail_errors = 5;     // standard errors of the variance of plain paths
 
 // What connections to lit surfaces gain is more than lit_gain() says: it leaves out that
@@ -59,7 +63,6 @@ void add(std::atomic<int64_t>& sum, int64_t term) {
 
 struct ConnectionBudget::Worth {
   std::vector<double> weights, means;  // of squares, and radiance, by region
-  double price;                        // of cost, in weighted squares
 };
 
 ConnectionBudget::ConnectionBudget(float mean_radiance, Vec2i resolution, double overhead)
@@ -68,7 +71,9 @@ ConnectionBudget::ConnectionBudget(float mean_radiance, Vec2i resolution, double
       resolution_(resolution),
       size_{std::clamp(resolution.x, 1, max_size), std::clamp(resolution.y, 1, max_size)},
       regions_(static_cast<size_t>(size_.x) * static_cast<size_t>(size_.y)),
-      counts_(regions_.size()) {
+      recent_(resolution),
+      counts_(regions_.size()),
+      region_scales_(regions_.size(), static_cast<float>(scale_)) {
   for (auto& counts : counts_)
     for (size_t i = 0; i < counts.size(); ++i)
       counts[i] = i % depths == 0 ? first_count_first : first_count_later;
@@ -99,19 +104,20 @@ float ConnectionBudget::cost(Effort effort, int count) {
   return static_cast<float>(effort_cost[static_cast<size_t>(effort)] * count);
 }
 
-void ConnectionBudget::record_path(size_t region, const Finished& path) const {
-  Region& r = regions_[region];
-  const int64_t square = quantize(sqr(double{path.value} * scale_));
-  add(r.radiance, quantize(double{path.value} * scale_));
-  add(r.squares, square);
-  add(r.noise, quantize(double{path.noise} * sqr(scale_)));
+float ConnectionBudget::path_cost(int legs, float spent) const {
+  return static_cast<float>((leg_cost + possible_cost) * legs + overhead_ * double{spent});
+}
+
+void ConnectionBudget::record_path(Vec2i pixel, const Finished& path) const {
+  Region& r = regions_[region(pixel)];
+  const int64_t radiance = quantize(double{path.value} * scale_);
+  recent_.record(pixel, radiance);
+  add(r.radiance, radiance);
   add(r.paths, 1);
-  add(r.legs, path.legs);
-  add(r.recent.squares, square);
+  add(r.recent.squares, quantize(sqr(double{path.value} * scale_)));
   add(r.recent.paths, 1);
-  const double cost =
-      (leg_cost + possible_cost) * path.legs + overhead_ * double{path.spent};
-  add(r.recent.cost, static_cast<int64_t>(cost / cost_unit));
+  add(r.recent.cost,
+      static_cast<int64_t>(double{path_cost(path.legs, path.spent)} / cost_unit));
   add(r.recent.lit_gain, quantize(double{path.lit_gain} * sqr(scale_)));
   add(r.recent.lit_cost,
       static_cast<int64_t>(overhead_ * double{path.lit_spent} / cost_unit));
@@ -128,33 +134,33 @@ void ConnectionBudget::record_plain_path(size_t region, const Finished& path) co
 }
 
 ConnectionBudget::Worth ConnectionBudget::worth() const {
-  double radiance = 0, paths = 0, legs = 0;
+  double radiance = 0, paths = 0;
   for (const Region& r : regions_) {
     radiance += static_cast<double>(r.radiance) * unit;
     paths += static_cast<double>(r.paths);
-    legs += static_cast<double>(r.legs);
   }
   const double mean = radiance / std::max(paths, 1.0);
-  Worth worth{.weights = {}, .means = {}, .price = 0};
-  double variance = 0;
+  Worth worth;
   for (const Region& r : regions_) {
-    const auto n = static_cast<double>(r.paths);
-    const double here =
-        (static_cast<double>(r.radiance) * unit + prior_paths * mean) / (n + prior_paths);
-    const double weight = 1 / std::max(sqr(here) + epsilon * sqr(mean), 1e-30);
-    const double left = static_cast<double>(r.squares - r.noise) * unit - n * sqr(here);
-    variance += weight * std::max(left, 0.0);
-    worth.weights.push_back(weight);
+    const double here = (static_cast<double>(r.radiance) * unit + prior_paths * mean) /
+                        (static_cast<double>(r.paths) + prior_paths);
+    worth.weights.push_back(1 / std::max(sqr(here) + epsilon * sqr(mean), 1e-30));
     worth.means.push_back(here);
   }
-  worth.price = variance / std::max(leg_cost * legs, 1.0);
   return worth;
 }
 
 void ConnectionBudget::update() {
   const Worth now = worth();
-  for (size_t i = 0; i < efforts * depths; ++i) update_cell(i, now);
+  const Efficiency recent = efficiency(&Region::recent, now);
+  if (recent.paths >= least_paths_for_price)
+    price_ = variance_in_pixels(now) / recent.cost;
+  if (price_ > 0)
+    for (size_t i = 0; i < efforts * depths; ++i) update_cell(i, now);
+  for (size_t r = 0; r < regions_.size(); ++r)
+    region_scales_[r] = static_cast<float>(std::sqrt(now.weights[r]) * scale_);
   if (!is_decided_) decide(now);
+  recent_.clear();
   for (Region& r : regions_)
     r.recent.squares = r.recent.paths = r.recent.cost = r.recent.lit_gain =
         r.recent.lit_cost = 0;
@@ -179,6 +185,22 @@ ConnectionBudget::Efficiency ConnectionBudget::efficiency(Tally Region::*tally,
           .paths = sum.paths,
           .lit_gain = sum.lit_gain / n,
           .lit_cost = sum.lit_cost / n};
+}
+
+// Between the paths of each pixel; with one of each, between those of a region.
+double ConnectionBudget::variance_in_pixels(const Worth& worth) const {
+  double squares = 0, degrees = 0;
+  for (size_t r = 0; r < regions_.size(); ++r)
+    squares += worth.weights[r] * static_cast<double>(regions_[r].recent.squares) * unit;
+  for (size_t i = 0; i < recent_.size(); ++i) {
+    const auto n = static_cast<double>(recent_[i].count);
+    if (n == 0) continue;
+    const double sum = static_cast<double>(recent_[i].value) * unit;
+    squares -= worth.weights[region(recent_.pixel(i))] * sqr(sum) / n;
+    degrees += n - 1;
+  }
+  if (degrees == 0) return efficiency(&Region::recent, worth).variance;
+  return std::max(squares / degrees, 0.0);
 }
 
 // Of the variance of plain paths.
@@ -222,7 +244,7 @@ void ConnectionBudget::update_cell(size_t cell, const Worth& worth) {
     squares.records += static_cast<double>(c.visits);
   }
   if (squares.records == 0) return;
-  const double cost = effort_cost[cell / depths] * std::max(worth.price, 1e-30);
+  const double cost = effort_cost[cell / depths] * more_of_a_kind * price_;
   const double least = cell % depths == 0 ? min_count_first : min_count_later;
   for (size_t r = 0; r < regions_.size(); ++r) {
     const Cell& c = regions_[r].cells[cell];

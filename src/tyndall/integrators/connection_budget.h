@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "tyndall/integrators/pixel_sums.h"
 #include "tyndall/math/vec.h"
 
 namespace tyndall {
@@ -19,10 +20,9 @@ enum class Effort { single, dual, lit_from_leg, lit_from_vertex, glow, forced };
 /// first samples. What counts is the variance relative to the squared radiance of the
 /// region.
 ///
-/// With V the variance that all connections made perfectly would leave, C the cost of the
-/// walk, M the variance of one connection given the walk (half the squared difference of
-/// two made at one place) and c its cost, the product of the variance and the cost of a
-/// path is least for sqrt(M / c * C / V) connections. Where that is less than one, a
+/// With V the variance of a path, C its cost, M the variance of one connection given the
+/// walk (half the squared difference of two made at one place) and c its cost, the product
+/// of V and C is least for sqrt(M / c * C / V) connections. Where that is less than one, a
 /// connection left to chance varies by all that it finds, and M is the mean of its square.
 ///
 /// Where connections as a whole cost more than they gain, none are to be made: pays().
@@ -59,7 +59,6 @@ class ConnectionBudget {
     float value;  ///< that it found
     int legs;
     float spent = 0;      ///< cost() of its connections
-    float noise = 0;      ///< variance of the connections, as far as pairs of them tell
     float lit_gain = 0;   ///< lit_gain() of its connections to lit surfaces
     float lit_spent = 0;  ///< cost() of them
   };
@@ -70,7 +69,7 @@ class ConnectionBudget {
     const float others = std::max(1 - share, 1e-6f);
     return value * value * ((2 - share) / others - 1 / count);
   }
-  void record_path(size_t region, const Finished& path) const;
+  void record_path(Vec2i pixel, const Finished& path) const;
   /// A path without any connections ended.
   void record_plain_path(size_t region, const Finished& path) const;
 
@@ -86,6 +85,18 @@ class ConnectionBudget {
   bool pays() const { return pays_; }
   /// The same for connections to lit surfaces alone.
   bool lit_pays() const { return lit_pays_; }
+
+  /// What a path costs [rays] that has so many legs and spent so much, by cost(), on
+  /// connections.
+  float path_cost(int legs, float spent) const;
+  /// Radiance in units of that of the region, as squares are weighed. Of what is known at
+  /// the last update.
+  float relative(size_t region, float radiance) const {
+    return radiance * region_scales_[region];
+  }
+  /// Variance of the paths of a pixel, relative to the squared radiance of its region, over
+  /// their cost: of the paths between the last two updates.
+  double price() const { return price_; }
 
   /// Mean over the picture.
   double mean_count(Effort effort, int depth) const;
@@ -105,7 +116,7 @@ class ConnectionBudget {
   };
   struct Region {
     std::array<Cell, efforts * depths> cells;
-    std::atomic<int64_t> radiance = 0, squares = 0, noise = 0, paths = 0, legs = 0;
+    std::atomic<int64_t> radiance = 0, paths = 0;
     Tally recent, plain;
     std::atomic<int64_t> plain_fourths = 0;
   };
@@ -113,18 +124,21 @@ class ConnectionBudget {
   struct Efficiency {
     double variance, cost, paths, lit_gain, lit_cost;
   };
-  struct Worth;  // of a square that is recorded in a region, and of a unit of cost
+  struct Worth;  // of a square that is recorded in a region
   Worth worth() const;
   void update_cell(size_t cell, const Worth& worth);
   Efficiency efficiency(Tally Region::*tally, const Worth& worth) const;
+  double variance_in_pixels(const Worth& worth) const;
   double standard_error(const Worth& worth, double paths) const;
   void decide(const Worth& worth);
 
-  double overhead_, scale_;
+  double overhead_, scale_, price_ = 0;
   Vec2i resolution_, size_;
   bool is_recording_ = true, is_decided_ = false, pays_ = true, lit_pays_ = true;
   mutable std::vector<Region> regions_;
+  PixelSums recent_;
   std::vector<std::array<float, efforts * depths>> counts_;
+  std::vector<float> region_scales_;
 };
 
 }  // namespace tyndall

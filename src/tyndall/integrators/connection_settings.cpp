@@ -25,6 +25,7 @@ const std::vector<std::pair<std::string, ConnectionSettings>>& integrators() {
         .min_distance_ratio = 1,
         .visibility = true,
         .lit_surfaces = max_lit_surfaces,
+        .roulette = true,
         .direction = true}},
       {"zhou2016",
        {.single = true, .dual = true, .min_distance_ratio = 1, .direction = true}}};
@@ -46,6 +47,7 @@ const Switches& switches_of(const std::string& integrator) {
       {"learned.product", [](ConnectionSettings& s, bool is_on) { s.product = is_on; }},
       {"learned.pretraining",
        [](ConnectionSettings& s, bool is_on) { s.pretraining = is_on; }},
+      {"learned.roulette", [](ConnectionSettings& s, bool is_on) { s.roulette = is_on; }},
       {"learned.distance", [](ConnectionSettings& s, bool is_on) { s.visibility = is_on; }},
       {"learned.lit_surfaces", [](ConnectionSettings& s, bool is_on) {
          if (!is_on) s.lit_surfaces = 0;

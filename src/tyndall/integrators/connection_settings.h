@@ -28,6 +28,7 @@ struct ConnectionSettings {
   /// Connect to surfaces that lights shine on, by way of as many surfaces in all; zero: do
   /// not.
   int lit_surfaces = 0;
+  bool roulette = false;    ///< learn how likely walks are to go on
   bool direction = false;   ///< learn the directions of dual connections
   bool product = true;      ///< ... and multiply them by the phase function
   bool pretraining = true;  ///< ... beginning with what arrives if nothing is in the way

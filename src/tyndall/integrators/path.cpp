@@ -11,6 +11,8 @@ namespace {
 
 // Paths this short are never ended by chance.
 constexpr int roulette_free_depth = 1;
+// A walk that seems worth nothing may be all that finds something rare.
+constexpr float least_survival = 0.1f;
 // Ends of legs that are seen less clearly are left to chance.
 constexpr float least_end_transmittance = 0.01f;
 
@@ -182,13 +184,13 @@ void Path::add_environment() {
 }
 
 void Path::finish() const {
-  if (rules_.budget && rules_.budget->is_recording())
-    rules_.budget->record_path(region_, {.value = luminance(result_.L),
-                                         .legs = legs(),
-                                         .spent = spent_,
-                                         .noise = noise_,
-                                         .lit_gain = lit_gain_,
-                                         .lit_spent = lit_spent_});
+  if (!rules_.budget || !rules_.budget->is_recording()) return;
+  rules_.budget->record_path(sampler_.pixel(), {.value = luminance(result_.L),
+                                       .legs = legs(),
+                                       .spent = spent_,
+                                       .lit_gain = lit_gain_,
+                                       .lit_spent = lit_spent_});
+  if (rules_.worth) tell_worth();
 }
 
 bool Path::scatter() {
@@ -205,14 +207,45 @@ bool Path::scatter() {
   return survives_roulette();
 }
 
-// A path goes on with the probability of what it can still carry; in a medium of albedo one
-// it carries all and is never ended.
 bool Path::survives_roulette() {
   const float carried = max_component(beta_) / average(spectral_) * eta_scale_;
-  if (depth_ <= roulette_free_depth || carried >= 1) return carried > 0;
-  if (tracking_.next_1d() >= carried) return false;
-  beta_ /= carried;
+  if (!(carried > 0)) return false;
+  const float p = std::min(depth_ <= roulette_free_depth ? 1 : survival(carried), 1.0f);
+  if (p < 1) {
+    if (tracking_.next_1d() >= p) return false;
+    beta_ /= p;
+  }
+  depart(carried / p);
   return true;
+}
+
+// A path goes on with the probability of what it can still carry, as far as nothing better
+// is known; in a medium of albedo one it carries all and is never ended.
+float Path::survival(float carried) const {
+  const WalkWorth* worth = rules_.worth;
+  if (!worth || worth->is_empty()) return carried;
+  const float wanted =
+      rules_.budget->relative(region_, carried) / rules_.budget->relative(1) *
+      worth->survival(worth->place(ray_.o, ray_.d));
+  return std::max(wanted, least_survival * std::min(carried, 1.0f));
+}
+
+void Path::depart(float carried) {
+  if (!rules_.worth || !rules_.budget->is_recording()) return;
+  if (departed_ == departures_.size()) return;
+  departures_[departed_++] = {.place = rules_.worth->place(ray_.o, ray_.d),
+                              .carried = carried,
+                              .found = luminance(result_.L),
+                              .cost = rules_.budget->path_cost(depth_, spent_)};
+}
+
+void Path::tell_worth() const {
+  const float cost = rules_.budget->path_cost(legs(), spent_);
+  for (size_t i = 0; i < departed_; ++i) {
+    const Departure& d = departures_[i];
+    const float found = (luminance(result_.L) - d.found) / d.carried;
+    rules_.worth->record(d.place, rules_.budget->relative(found), cost - d.cost);
+  }
 }
 
 }  // namespace tyndall

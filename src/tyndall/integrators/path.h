@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 
+#include "tyndall/guiding/walk_worth.h"
 #include "tyndall/image/film.h"
 #include "tyndall/integrators/connection_budget.h"
 #include "tyndall/integrators/leg.h"
@@ -27,6 +28,8 @@ struct PathRules {
   const Medium* filling = nullptr;
   const ConnectionContext* connections;  ///< null: next event estimation only
   const ConnectionBudget* budget;        ///< null: each connection once
+  /// Null: walks survive by what they carry, not by what they are worth. Needs the budget.
+  const WalkWorth* worth = nullptr;
   bool sees_through =
       false;  ///< nothing hides a light from a connection: for training only
 };
@@ -81,6 +84,9 @@ class Path {
   void add_environment();
   bool arrive(float t);
   bool survives_roulette();
+  float survival(float carried) const;
+  void depart(float carried);
+  void tell_worth() const;
   void add(Rgb contribution) { result_.L += contribution / average(spectral_); }
 
   // Light that arrives at a vertex from a light, and the densities of the sample.
@@ -169,7 +175,14 @@ class Path {
   float spent_ = 0;      // on connections
   float lit_share_ = 0;  // weight of the last connection to a lit surface
   float lit_gain_ = 0, lit_spent_ = 0;
-  float noise_ = 0;  // variance of the connections, as far as pairs of them tell
+
+  // Where the walk left its first vertices, and what the path was worth until then.
+  struct Departure {
+    size_t place;  // see WalkWorth
+    float carried, found, cost;
+  };
+  std::array<Departure, 8> departures_;
+  size_t departed_ = 0;
 };
 
 // Makes the connection as often as the budget says, on average.
@@ -199,9 +212,7 @@ void Path::spend(Effort effort, const Connect& connect) {
         ConnectionBudget::lit_gain(found[0], share, wanted) / std::min(wanted, 1.0f);
   }
   if (count < 2) return;
-  const float variance = 0.5f * sqr(found[0] - found[1]);
-  budget->record_pair(region_, effort, depth_, variance);
-  noise_ += variance / wanted;
+  budget->record_pair(region_, effort, depth_, 0.5f * sqr(found[0] - found[1]));
 }
 
 }  // namespace tyndall

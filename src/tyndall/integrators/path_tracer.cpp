@@ -5,6 +5,7 @@
 #include <cmath>
 #include <variant>
 
+#include "tyndall/integrators/pilot_points.h"
 #include "tyndall/integrators/useful_connections.h"
 
 namespace tyndall {
@@ -66,6 +67,13 @@ PathTracer::PathTracer(const Scene& scene, const RenderSettings& settings,
   budget_.emplace(pilot_radiance(), resolution_,
                   connections_->visibility() ? overhead_of_visibility : overhead);
   rules_.budget = &*budget_;
+  if (connections.roulette) learn_worth();
+}
+
+void PathTracer::learn_worth() {
+  Bounds3 box;
+  for (const Vec3 p : pilot_points(scene_)) box.extend(p);
+  if (!box.is_empty()) rules_.worth = &worth_.emplace(box);
 }
 
 // Camera rays through all of the picture, apart from those of the pixels.
@@ -95,6 +103,7 @@ float PathTracer::pilot_radiance() const {
 void PathTracer::pretrain(DirectionGuiding& guiding) const {
   PathRules rules = rules_;
   rules.budget = nullptr;
+  rules.worth = nullptr;
   rules.sees_through = true;
   guiding.start_pretraining();
   for_pilot_rays(pretraining_paths, [&](const Ray& ray, Sampler& sampler, Vec2i) {
@@ -116,9 +125,7 @@ uint32_t PathTracer::prepare(uint32_t first) {
       was_tried_ = true;
       record_plain_paths();
     }
-    budget_->update();
-    if (!budget_->lit_pays()) connections_->forget_lit_surfaces();
-    connections_->update();
+    update();
   }
   if (first >= last_update) budget_->end_recording();
   uint32_t next = unlimited;
@@ -128,6 +135,23 @@ uint32_t PathTracer::prepare(uint32_t first) {
     next = std::min(next, guiding->prepare(first));
   }
   return next;
+}
+
+void PathTracer::update() {
+  const bool paid = budget_->pays();
+  budget_->update();
+  if (worth_) worth_->update(budget_->price());
+  if (!budget_->lit_pays()) connections_->forget_lit_surfaces();
+  connections_->update();
+  if (paid && !budget_->pays()) give_up_connections();
+}
+
+// What walks are worth without connections is to be learned again.
+void PathTracer::give_up_connections() {
+  if (!worth_) return;
+  worth_->clear();
+  plain_rules_.budget = &*budget_;
+  plain_rules_.worth = &*worth_;
 }
 
 void PathTracer::record_plain_paths() const {

@@ -32,11 +32,15 @@ class PathTracer : public Integrator {
   float pilot_radiance() const;
   void pretrain(DirectionGuiding& guiding) const;
   void record_plain_paths() const;
+  void learn_worth();
+  void update();
+  void give_up_connections();
 
   uint64_t seed_;
   Vec2i resolution_;
   std::optional<ConnectionContext> connections_;
   std::optional<ConnectionBudget> budget_;
+  std::optional<WalkWorth> worth_;
   PathRules rules_, plain_rules_;
   std::vector<std::string> notes_;
   bool was_tried_ = false;  // whether connections pay
