@@ -7,7 +7,6 @@
 #include <limits>
 #include <set>
 
-
 namespace tyndall {
 namespace {
 

@@ -214,7 +214,8 @@ TEST(ConnectionBudget, DecidesOnce) {
 TEST(ConnectionBudget, DoesNotJudgeByFewPaths) {
   ConnectionBudget budget(1, size);
   for (int i = 0; i < 3999; ++i) {
-    budget.record_path({0, 0}, {.value = i % 2 == 0 ? 2.0f : 0.0f, .legs = 1, .spent = 100});
+    budget.record_path({0, 0},
+                       {.value = i % 2 == 0 ? 2.0f : 0.0f, .legs = 1, .spent = 100});
     budget.record_plain_path(0, {.value = 1, .legs = 1});
   }
   budget.update();

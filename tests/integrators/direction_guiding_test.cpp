@@ -95,14 +95,16 @@ TEST(DirectionGuidingTest, ThePassInHandTeachesNothingYet) {
   EXPECT_NE(mean_of(scene, *integrator, 1, 1, 1).mean(), before.mean());
 }
 
-TEST(DirectionGuidingTest, LiesCostVarianceOnly) {
-  const Scene scene(lamp_over_disk());
+void expect_lies_cost_variance_only(const Scene& scene,
+                                    const RenderSettings& render_settings) {
   ConnectionSettings settings = connection_settings("zhou2016", {});
-  const PathTracer honest(scene, order_two(1), settings);
+  const PathTracer honest(scene, render_settings, settings);
   settings.known_directions = lies(scene);
-  PathTracer misled(scene, order_two(1), settings);
+  PathTracer misled(scene, render_settings, settings);
   EXPECT_EQ(misled.prepare(0), 1u);
-  const auto volpath = make_integrator(scene, order_two(1, "volpath"));
+  RenderSettings plain = render_settings;
+  plain.integrator = "volpath";
+  const auto volpath = make_integrator(scene, plain);
   const RunningMoments reference = mean_of(scene, *volpath, 0, 4000, 1);
   const RunningMoments a = mean_of(scene, honest, 0, 400, 2);
   const RunningMoments b = mean_of(scene, misled, 0, 400, 3);
@@ -111,6 +113,25 @@ TEST(DirectionGuidingTest, LiesCostVarianceOnly) {
   EXPECT_GT(welch_p_value(a, b), sidak(0.01, 3));
   // The lies were believed.
   EXPECT_GT(b.variance(), 1.3 * a.variance());
+}
+
+TEST(DirectionGuidingTest, LiesCostVarianceOnly) {
+  const Scene scene(lamp_over_disk());
+  expect_lies_cost_variance_only(scene, order_two(1));
+}
+
+// A ball of smoke around a lamp lights a disk in clear air, which fills the picture.
+TEST(DirectionGuidingTest, LiesToSurfacesCostVarianceOnly) {
+  SceneDescription d;
+  d.camera = test::camera({0, 0, 1.2f}, {0, 0, 0}, 40, {16, 16});
+  d.media.push_back(test::grey_fog(0.8f, 0.1f, 0.5f));
+  d.surfaces.push_back(test::diffuse_disk(0, 3, 0.5f));
+  d.surfaces.push_back(test::boundary_sphere(0.5f, {0.3f, 0.2f, 2}));
+  d.lights.push_back(Light(PointLight{{0.3f, 0.2f, 2}, Rgb(5)}));
+  const Scene scene(std::move(d));
+  RenderSettings settings = order_two(1);
+  settings.orders = {1, 1};
+  expect_lies_cost_variance_only(scene, settings);
 }
 
 RenderStatistics statistics_of(SceneDescription description,

@@ -62,6 +62,35 @@ TEST_P(DualDirectionTest, SamplesFollowTheDensity) {
   EXPECT_NEAR(r.mass, 0.5 * double{inside} + 0.5, 1e-3);
 }
 
+// The same at a surface, with the lobe of a diffuse one.
+TEST_P(DualDirectionTest, SamplesFollowTheDensityAtSurfaces) {
+  const Vec3 n = w_ab;
+  const DualDirection direction(tables, b, n, pivot, &learned);
+  const ChiSquareResult r = chi_square_sphere(
+      [&](Vec2 u) -> std::optional<Vec3> {
+        const auto s = direction.sample(u);
+        if (!s) return std::nullopt;
+        return s->w;
+      },
+      [&](Vec3 w) { return double{direction.pdf(w)}; }, 200'000, 1,
+      {.pole = normalize(pivot - b), .concentration = 8});
+  EXPECT_GT(r.p_value, sidak(0.01, 3)) << r;
+  EXPECT_EQ(r.samples_of_zero_pdf, 0);
+  const Vec3 below = -n, above = n;
+  EXPECT_EQ(direction.densities(below)[static_cast<size_t>(DirectionTechnique::phase)], 0);
+  EXPECT_NEAR(direction.densities(above)[static_cast<size_t>(DirectionTechnique::phase)],
+              inv_pi, 1e-6f);
+}
+
+// Where nothing is known, joint sampling without the scattering at the vertex.
+TEST_P(DualDirectionTest, UntaughtSurfacesSampleJointly) {
+  const DualDirection direction(tables, b, w_ab, pivot, nullptr);
+  const DoubleScatteringDirection joint(tables, b, pivot);
+  const Vec3 w = normalize(Vec3{0.3f, -0.2f, 0.9f});
+  EXPECT_EQ(direction.pdf(w), joint.pdf(w));
+  EXPECT_EQ(direction.sample({0.3f, 0.6f})->w, joint.sample({0.3f, 0.6f})->w);
+}
+
 // The mean cosine to the light, from independent draws of the three techniques.
 TEST_P(DualDirectionTest, MeanCosineIsThatOfItsParts) {
   const Vec3 axis = normalize(pivot - b);

@@ -42,6 +42,21 @@ TEST(UsefulConnectionsTest, OccludersAreAReasonToLearnThemForFarLightsToo) {
   }
 }
 
+// What surfaces see of smoke, directions are learned for, not of fog on all sides.
+TEST(UsefulConnectionsTest, SmokeThatSurfacesSeeIsAReasonToLearnDirections) {
+  for (const bool is_fog : {false, true}) {
+    SceneDescription d = ball_and_light(2);
+    d.surfaces.push_back(test::diffuse_disk(2, 0.5f, 0.5f));
+    if (is_fog) {
+      d.surfaces.erase(d.surfaces.begin());
+      d.camera_medium = 0;
+    }
+    const ConnectionSettings s = useful(std::move(d));
+    EXPECT_FALSE(s.visibility);
+    EXPECT_EQ(s.direction, !is_fog);
+  }
+}
+
 TEST(UsefulConnectionsTest, FarLightsThatNothingHidesNeedNone) {
   EXPECT_FALSE(useful(ball_and_light(100)).single);
   SceneDescription unbounded = ball_and_light(100);

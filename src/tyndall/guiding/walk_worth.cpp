@@ -86,8 +86,7 @@ void WalkWorth::record(size_t place, float value, float cost) const {
   const double square = sqr(double{value});
   if (!std::isfinite(square) || !(cost >= 0)) return;
   Tally& tally = places_[place];
-  add(tally.squares,
-      static_cast<int64_t>(std::min(square, largest_square) / square_unit));
+  add(tally.squares, static_cast<int64_t>(std::min(square, largest_square) / square_unit));
   add(tally.cost, static_cast<int64_t>(double{cost} / cost_unit));
   add(tally.walks, 1);
 }

@@ -22,7 +22,7 @@ constexpr double more_of_a_kind = 1.4;
 // paths, whose variance is taken for as large as it may well be.
 constexpr double least_efficiency = 0.85;
 constexpr double least_paths = 4000, least_paths_for_price = 256;  // to judge by
-constexpr double tail_errors = 5;     // standard errors of the variance of plain paths
+constexpr double tail_errors = 5;  // standard errors of the variance of plain paths
 
 // What connections to lit surfaces gain is more than lit_gain() says: it leaves out that
 // what a walk finds varies together, and that walks end by chance. Measured, 1.4 to 8 times
@@ -153,8 +153,7 @@ ConnectionBudget::Worth ConnectionBudget::worth() const {
 void ConnectionBudget::update() {
   const Worth now = worth();
   const Efficiency recent = efficiency(&Region::recent, now);
-  if (recent.paths >= least_paths_for_price)
-    price_ = variance_in_pixels(now) / recent.cost;
+  if (recent.paths >= least_paths_for_price) price_ = variance_in_pixels(now) / recent.cost;
   if (price_ > 0)
     for (size_t i = 0; i < efforts * depths; ++i) update_cell(i, now);
   for (size_t r = 0; r < regions_.size(); ++r)

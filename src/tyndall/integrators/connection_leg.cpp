@@ -51,7 +51,7 @@ ConnectionContext::ConnectionContext(const Scene& scene, const ConnectionSetting
     foresees_far_lights_ |= scene.lights()[i].is_infinite() && visibility_->knows(i);
   if (settings.lit_surfaces > 0) lit_.emplace(scene, settings.lit_surfaces);
   if (settings.direction) guiding_ = std::make_unique<DirectionGuiding>(scene, settings);
-  const Medium* filling = scene.has_boundaries() ? nullptr : scene.camera_medium();
+  const Medium* filling = scene.filling_medium();
   if (filling && filling->is_homogeneous())
     filling_sigma_t_ = luminance(filling->at({}).sigma_t());
   for (const Medium& medium : scene.description().media) {

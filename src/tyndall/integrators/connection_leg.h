@@ -94,7 +94,7 @@ struct LegStart {
   float pdf_direction = 1;  ///< with which the walk turns into the leg [1/sr]
   bool is_specular = true;  ///< the camera, or a Dirac delta: the direction has no density
   bool is_in_medium = false;
-  Vec3 ng;                         ///< of a surface
+  Vec3 ng;                         ///< of a surface, on the side of the leg before
   bool can_be_lit = false;         ///< a surface that LitSurfaceSampling finds
   bool sees_glow = false;          ///< a surface from which glow is connected to
   const Medium* medium = nullptr;  ///< around it

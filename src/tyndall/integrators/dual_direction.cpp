@@ -18,17 +18,34 @@ DualDirection dual_direction(const ConnectionContext& context, const Medium& med
           guiding && guiding->has_product()};
 }
 
+DualDirection glow_direction(const ConnectionContext& context, const Medium* medium, Vec3 p,
+                             Vec3 n, size_t light, Vec3 pivot) {
+  const DirectionGuiding* guiding = context.guiding();
+  return {context.tables_around(medium), p, n, pivot,
+          guiding ? guiding->find(p, light) : nullptr};
+}
+
 DualDirection::DualDirection(const Scattering& scattering, Vec3 b, Vec3 w_ab, Vec3 pivot,
                              const DirectionGuide* guide, bool with_product)
-    : joint_(scattering.tables, b, w_ab, pivot), phase_(&scattering.phase), wo_(-w_ab) {
-  const Vec3 to_pivot = pivot - b;
+    : joint_(scattering.tables, b, w_ab, pivot), lobe_(scattering.phase, w_ab) {
+  guide_by(guide, pivot - b, with_product);
+}
+
+DualDirection::DualDirection(const ScatteringTables& tables, Vec3 b, Vec3 n, Vec3 pivot,
+                             const DirectionGuide* guide)
+    : joint_(tables, b, pivot), lobe_(n) {
+  guide_by(guide, pivot - b, true);
+}
+
+void DualDirection::guide_by(const DirectionGuide* guide, Vec3 to_pivot,
+                             bool with_product) {
   const float distance = length(to_pivot);
   const bool knows_nothing = !guide || guide->mixture.is_uniform();
   if (knows_nothing || !(distance > 0 && distance < infinity)) return;
   guide_ = guide;
   square_.emplace(guide->square(to_pivot / distance));
-  mixture_ =
-      with_product ? guide->product(*square_, w_ab, phase_->mean_cosine()) : guide->mixture;
+  mixture_ = with_product ? guide->product(*square_, lobe_.axis(), lobe_.mean_cosine())
+                          : guide->mixture;
 }
 
 std::optional<DoubleDirectionSample> DualDirection::sample(Vec2 u) const {
@@ -57,9 +74,7 @@ std::optional<Vec3> DualDirection::sample_one(Vec2 u) const {
     return s->w;
   }
   u.x -= guide_->share(DirectionTechnique::joint_sampling);
-  const auto s = phase_->sample(wo_, rest(DirectionTechnique::phase));
-  if (!s) return std::nullopt;
-  return s->wi;
+  return lobe_.sample(rest(DirectionTechnique::phase));
 }
 
 float DualDirection::pdf(Vec3 w) const {
@@ -71,10 +86,10 @@ float DualDirection::pdf(Vec3 w) const {
 }
 
 DirectionShares DualDirection::densities(Vec3 w) const {
-  const float joint = joint_.pdf(w), phase = phase_->pdf(wo_, w);
-  if (!guide_) return {0, joint, phase};
+  const float joint = joint_.pdf(w), lobe = lobe_.pdf(w);
+  if (!guide_) return {0, joint, lobe};
   const SquarePoint q = square_->point(w);
-  return {mixture_.pdf(q.p) * q.density, joint, phase};
+  return {mixture_.pdf(q.p) * q.density, joint, lobe};
 }
 
 }  // namespace tyndall

@@ -5,13 +5,14 @@
 
 #include "tyndall/guiding/direction_guide.h"
 #include "tyndall/integrators/connection_leg.h"
+#include "tyndall/integrators/scattering_lobe.h"
 #include "tyndall/techniques/double_scattering_direction.h"
 
 namespace tyndall {
 
-/// The direction from the first to the second scattering vertex of a dual connection: joint
-/// sampling, or where something has been learned a mixture of that with the learned density
-/// and the phase function, in learned shares.
+/// The direction from a scattering vertex to the next, in a medium, from which light comes:
+/// joint sampling, or where something has been learned a mixture of that with the learned
+/// density and the lobe of the vertex, in learned shares.
 class DualDirection {
  public:
   /// What is needed of a medium.
@@ -19,10 +20,14 @@ class DualDirection {
     const ScatteringTables& tables;
     const PhaseFunction& phase;
   };
-  /// For the vertex `b`, reached in the unit direction `w_ab`. Everything pointed to must
-  /// outlive it; `guide` is null if nothing is known.
+  /// For the vertex `b` in the medium, reached in the unit direction `w_ab`. Everything
+  /// pointed to must outlive it; `guide` is null if nothing is known.
   DualDirection(const Scattering& scattering, Vec3 b, Vec3 w_ab, Vec3 pivot,
                 const DirectionGuide* guide, bool with_product);
+  /// For the vertex `b` on a surface that reflects to the side of the unit normal `n`; the
+  /// tables are those of the medium around it.
+  DualDirection(const ScatteringTables& tables, Vec3 b, Vec3 n, Vec3 pivot,
+                const DirectionGuide* guide);
 
   /// Empty where the technique that u chooses finds nothing.
   std::optional<DoubleDirectionSample> sample(Vec2 u) const;
@@ -32,19 +37,23 @@ class DualDirection {
   DirectionShares densities(Vec3 w) const;
 
  private:
+  void guide_by(const DirectionGuide* guide, Vec3 to_pivot, bool with_product);
   std::optional<Vec3> sample_one(Vec2 u) const;
 
   DoubleScatteringDirection joint_;
-  const PhaseFunction* phase_;
-  Vec3 wo_;
+  ScatteringLobe lobe_;
   const DirectionGuide* guide_ = nullptr;  // null: joint sampling alone
   std::optional<LightSquare> square_;
-  GaussianMixture mixture_;  // times the phase function
+  GaussianMixture mixture_;  // times the lobe
 };
 
 /// The technique of a render at the vertex `b` in `medium`, for a light aimed at in
 /// `pivot`.
 DualDirection dual_direction(const ConnectionContext& context, const Medium& medium, Vec3 b,
                              Vec3 w_ab, size_t light, Vec3 pivot);
+/// The same at `p` on a surface that reflects to the side of `n`; `medium` is around it, or
+/// null.
+DualDirection glow_direction(const ConnectionContext& context, const Medium* medium, Vec3 p,
+                             Vec3 n, size_t light, Vec3 pivot);
 
 }  // namespace tyndall

@@ -186,10 +186,10 @@ void Path::add_environment() {
 void Path::finish() const {
   if (!rules_.budget || !rules_.budget->is_recording()) return;
   rules_.budget->record_path(sampler_.pixel(), {.value = luminance(result_.L),
-                                       .legs = legs(),
-                                       .spent = spent_,
-                                       .lit_gain = lit_gain_,
-                                       .lit_spent = lit_spent_});
+                                                .legs = legs(),
+                                                .spent = spent_,
+                                                .lit_gain = lit_gain_,
+                                                .lit_spent = lit_spent_});
   if (rules_.worth) tell_worth();
 }
 
@@ -224,9 +224,9 @@ bool Path::survives_roulette() {
 float Path::survival(float carried) const {
   const WalkWorth* worth = rules_.worth;
   if (!worth || worth->is_empty()) return carried;
-  const float wanted =
-      rules_.budget->relative(region_, carried) / rules_.budget->relative(1) *
-      worth->survival(worth->place(ray_.o, ray_.d));
+  const float wanted = rules_.budget->relative(region_, carried) /
+                       rules_.budget->relative(1) *
+                       worth->survival(worth->place(ray_.o, ray_.d));
   return std::max(wanted, least_survival * std::min(carried, 1.0f));
 }
 

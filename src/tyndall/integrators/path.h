@@ -116,9 +116,10 @@ class Path {
   Rgb connect_glow();  // from the vertex
   struct DualStart;
   struct ScatteredOnce;
-  ScatteredOnce connect_beyond(const DualStart& start, float u);
-  float dual_weight(const DualStart& start, ConnectionLeg& next, float t,
-                    const LightEnd& end);
+  ScatteredOnce connect_beyond(const DualStart& start, float u,
+                               float TailDensities::*technique);
+  float weight_beyond(const DualStart& start, ConnectionLeg& next, float t,
+                      const LightEnd& end, float TailDensities::*technique);
   void teach(const DualStart& start, const DualDirection& technique,
              const ScatteredOnce& found);
   template <typename Connect>

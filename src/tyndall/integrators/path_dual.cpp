@@ -5,12 +5,13 @@
 
 namespace tyndall {
 
-// The first vertex of a dual connection, and the direction it goes on in.
+// The first vertex of a connection through two, and the direction it goes on in.
 struct Path::DualStart {
   SelectedLight light;
+  Vec3 pivot;
   Vertex x;
-  const Medium* medium;
-  DistanceSample distance;
+  const Medium* medium;  // in that direction
+  float t;               // along the leg to x
   DoubleDirectionSample direction;
 };
 
@@ -31,13 +32,13 @@ Rgb Path::connect_dual(Leg& leg) {
   const Medium* medium = first ? leg_->proxy().medium_at(first->t) : nullptr;
   if (!medium) return Rgb();
   const Vertex x(leg.ray().at(first->t), -leg.ray().d, medium);
-  const DualDirection technique =
-      dual_direction(*rules_.connections, *medium, x.p(), leg.ray().d, selected->index,
-                     *leg_->pivot(selected->index));
+  const Vec3 pivot = *leg_->pivot(selected->index);
+  const DualDirection technique = dual_direction(*rules_.connections, *medium, x.p(),
+                                                 leg.ray().d, selected->index, pivot);
   const std::optional<DoubleDirectionSample> direction = technique.sample(u_direction);
   if (!direction) return Rgb();
-  const DualStart start{*selected, x, medium, *first, *direction};
-  const ScatteredOnce found = connect_beyond(start, u_last);
+  const DualStart start{*selected, pivot, x, medium, first->t, *direction};
+  const ScatteredOnce found = connect_beyond(start, u_last, &TailDensities::dual);
   teach(start, technique, found);
   if (is_black(found.light)) return Rgb();
   const Rgb scattered =
@@ -46,13 +47,40 @@ Rgb Path::connect_dual(Leg& leg) {
   return beta_ * scattered * found.light * (found.weight / pdf);
 }
 
+// Connects a surface to the air that glows around lights, by joint importance sampling of
+// direction and distance [Georgiev13]: a walk hardly ever leaves a surface towards the
+// neighbourhood of a lamp, where fog glows most.
+Rgb Path::connect_glow() {
+  const std::optional<SelectedLight> selected =
+      select_light(vertex_->p(), sampler_.next_1d());
+  const Vec2 u_direction = sampler_.next_2d();
+  const float u = sampler_.next_1d();
+  const std::optional<Vec3> pivot =
+      selected ? pivots_(selected->index) : std::optional<Vec3>();
+  if (!pivot) return Rgb();
+  const DualDirection technique =
+      glow_direction(*rules_.connections, vertex_->medium(), vertex_->p(),
+                     vertex_->ng_to_wo(), selected->index, *pivot);
+  const std::optional<DoubleDirectionSample> direction = technique.sample(u_direction);
+  const Rgb f = direction ? vertex_->eval(direction->w) : Rgb();
+  if (is_black(f)) return Rgb();
+  const DualStart start{*selected, *pivot,
+                        *vertex_,  vertex_->medium_towards(scene_, direction->w),
+                        t_vertex_, *direction};
+  const ScatteredOnce found = connect_beyond(start, u, &TailDensities::glow);
+  teach(start, technique, found);
+  const float pdf = selected->probability * direction->pdf;
+  return beta_ * f * found.light * (found.weight / pdf);
+}
+
 void Path::rehearse(Leg& leg) {
   enter(leg);
   if (!leg_->is_empty() && counts(2)) connect_dual(leg);
 }
 
 // Follows the direction of the dual connection to its second vertex, and connects that.
-Path::ScatteredOnce Path::connect_beyond(const DualStart& start, float u) {
+Path::ScatteredOnce Path::connect_beyond(const DualStart& start, float u,
+                                         float TailDensities::*technique) {
   const Vec3 w = start.direction.w;
   Leg next(scene_, start.x.spawn(w), start.medium);
   ConnectionLeg next_leg(*rules_.connections, pivots_, next);
@@ -66,20 +94,20 @@ Path::ScatteredOnce Path::connect_beyond(const DualStart& start, float u) {
   if (is_black(connection.light)) return {.light = Rgb(), .distance = second->t};
   return {.light = leg_transmittance(next, second->t) * medium->at(y.p()).sigma_s *
                    connection.light / (second->pdf_t * connection.end.pdf),
-          .weight = dual_weight(start, next_leg, second->t, connection.end),
+          .weight = weight_beyond(start, next_leg, second->t, connection.end, technique),
           .distance = second->t};
 }
 
-float Path::dual_weight(const DualStart& start, ConnectionLeg& next, float t,
-                        const LightEnd& end) {
-  // Single connections and next event estimation leave the path to this one; only a walk
+float Path::weight_beyond(const DualStart& start, ConnectionLeg& next, float t,
+                          const LightEnd& end, float TailDensities::*technique) {
+  // Single connections and next event estimation leave the path to a dual one; only a walk
   // that hits the light makes it too.
-  if (end.pdf_direction == 0) return 1;
+  if (technique == &TailDensities::dual && end.pdf_direction == 0) return 1;
   const LegStart at_x =
-      start_of_leg(start.x, start.distance.t, start.x.pdf(start.direction.w), false);
+      start_of_leg(start.x, start.t, start.x.pdf(start.direction.w), false);
   const TailDensities densities =
       tail_densities(*rules_.connections, *leg_, at_x, next, t, end);
-  return densities.weight(densities.dual);
+  return densities.weight(densities.*technique);
 }
 
 // Tells the guiding what came of a direction, nothing included.
@@ -90,7 +118,7 @@ void Path::teach(const DualStart& start, const DualDirection& technique,
   const uint64_t key = hash(key_, ++lessons_);
   if (!guiding->wants(key)) return;
   const Vec3 w = start.direction.w;
-  const Vec3 to_light = *leg_->pivot(start.light.index) - start.x.p();
+  const Vec3 to_light = start.pivot - start.x.p();
   const float distance = length(to_light);
   const DirectionShares densities = technique.densities(w);
   TrainingSample sample;
@@ -106,9 +134,11 @@ void Path::teach(const DualStart& start, const DualDirection& technique,
   sample.scattered = luminance(start.x.eval(w));
   sample.light_distance = distance;
   sample.scatter_distance = found.distance;
-  LegProxy::Cursor cursor(leg_->proxy());
-  cursor.move_to(start.distance.t);
-  sample.sigma_t = cursor.sigma_t();
+  if (start.x.is_in_medium()) {
+    LegProxy::Cursor cursor(leg_->proxy());
+    cursor.move_to(start.t);
+    sample.sigma_t = cursor.sigma_t();
+  }
   sample.cluster = guiding->cluster_of(start.light.index);
   guiding->record(sample);
 }

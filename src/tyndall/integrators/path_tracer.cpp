@@ -29,7 +29,7 @@ bool can_be_hit(const Light& light) {
 
 // See PathRules.
 const Medium* filling(const Scene& scene) {
-  const Medium* medium = scene.has_boundaries() ? nullptr : scene.camera_medium();
+  const Medium* medium = scene.filling_medium();
   const bool is_simple =
       medium && medium->is_homogeneous() && medium->is_grey() && !scene.has_glow();
   return is_simple ? medium : nullptr;

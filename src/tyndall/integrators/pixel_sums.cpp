@@ -27,8 +27,8 @@ PixelSums::PixelSums(Vec2i resolution)
 void PixelSums::record(Vec2i pixel, int64_t value) const {
   const int x = block_of(pixel.x, resolution_.x, size_.x);
   const int y = block_of(pixel.y, resolution_.y, size_.y);
-  Sum& sum = sums_[static_cast<size_t>(y) * static_cast<size_t>(size_.x) +
-                   static_cast<size_t>(x)];
+  Sum& sum =
+      sums_[static_cast<size_t>(y) * static_cast<size_t>(size_.x) + static_cast<size_t>(x)];
   sum.value.fetch_add(value, std::memory_order_relaxed);
   sum.count.fetch_add(1, std::memory_order_relaxed);
 }

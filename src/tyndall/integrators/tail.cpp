@@ -27,8 +27,7 @@ float glow_density(const ConnectionContext& context, const LegStart& x,
   if (x.is_specular || !x.sees_glow || !context.settings().dual) return 0;
   const std::optional<Vec3> pivot = leg.pivot(light);
   if (!pivot) return 0;
-  const DoubleScatteringDirection direction(context.tables_around(x.medium), x.p, *pivot);
-  return direction.pdf(leg.ray().d) *
+  return glow_direction(context, x.medium, x.p, x.ng, light, *pivot).pdf(leg.ray().d) *
          context.light_choice().at_point(x.p).probability(light);
 }
 
@@ -41,7 +40,7 @@ LegStart start_of_leg(const Vertex& vertex, float t, float pdf_direction,
           .pdf_direction = pdf_direction,
           .is_specular = is_specular,
           .is_in_medium = vertex.is_in_medium(),
-          .ng = vertex.ng(),
+          .ng = vertex.ng_to_wo(),
           .can_be_lit = vertex.can_be_lit(),
           .sees_glow = vertex.sees_glow(),
           .medium = vertex.medium()};

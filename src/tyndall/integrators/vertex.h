@@ -50,6 +50,8 @@ class Vertex {
   const SurfacePoint& point() const { return hit_->point; }
   /// Unit geometric normal; zero in a medium.
   Vec3 ng() const { return hit_ ? hit_->point.ng : Vec3{}; }
+  /// The same, on the side of wo().
+  Vec3 ng_to_wo() const { return dot(ng(), wo_) < 0 ? -ng() : ng(); }
 
   /// The ray that leaves towards wi, and the medium it starts in.
   Ray spawn(Vec3 wi) const;

@@ -221,6 +221,10 @@ Bounds3 Scene::bounds() const { return impl_->bounds; }
 std::optional<size_t> Scene::volume_light() const { return impl_->volume_light; }
 bool Scene::has_glow() const { return impl_->has_glow; }
 bool Scene::has_boundaries() const { return impl_->has_boundaries; }
+
+const Medium* Scene::filling_medium() const {
+  return has_boundaries() ? nullptr : camera_medium();
+}
 const std::vector<std::string>& Scene::remarks() const { return impl_->remarks; }
 const SceneDescription& Scene::description() const { return impl_->description; }
 

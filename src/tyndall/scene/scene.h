@@ -84,6 +84,8 @@ class Scene {
   /// Whether an opaque surface lies in (0, t_max).
   bool is_occluded(const Ray& ray, float t_max) const;
   bool has_boundaries() const;
+  /// The medium that fills the scene, boundaries there being none; null otherwise.
+  const Medium* filling_medium() const;
 
   /// The media behind a surface for a ray that crosses it towards `d`, coming from
   /// `current`; see MediumSets.
