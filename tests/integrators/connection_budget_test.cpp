@@ -194,6 +194,7 @@ TEST(ConnectionBudget, GivesUpLitSurfacesThatGainNothing) {
   EXPECT_TRUE(lit_pays(0.5f, 3.5f));
   EXPECT_FALSE(lit_pays(0.25f, 3.5f));
   EXPECT_FALSE(lit_pays(-1, 0.5f));
+  EXPECT_TRUE(lit_pays(0, 0));  // there are none to give up
 }
 
 TEST(ConnectionBudget, DecidesOnce) {

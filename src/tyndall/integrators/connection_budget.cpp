@@ -218,9 +218,9 @@ void ConnectionBudget::decide(const Worth& worth) {
   const Efficiency without = efficiency(&Region::plain, worth);
   if (with.paths < least_paths || without.paths < least_paths) return;
   is_decided_ = true;
-  lit_pays_ =
-      (with.variance + lit_gain_caution * with.lit_gain) * (with.cost - with.lit_cost) >
-      with.variance * with.cost;
+  lit_pays_ = with.lit_cost == 0 || (with.variance + lit_gain_caution * with.lit_gain) *
+                                            (with.cost - with.lit_cost) >
+                                        with.variance * with.cost;
   const double variance =
       without.variance + tail_errors * standard_error(worth, without.paths);
   pays_ = variance * without.cost > least_efficiency * with.variance * with.cost;
