@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tyndall/math/add_relaxed.h"
 #include "tyndall/math/scalar.h"
 
 namespace tyndall {
@@ -64,8 +65,8 @@ void LearnedSquares::record(const SquaresSample& sample, float value) const {
   const double moment =
       sqr(double{value}) * double{sample.density} / double{base_density(sample.index)};
   if (!(moment > 0)) return;
-  moments_[cell(sample.index, sample.p)].fetch_add(
-      static_cast<int64_t>(std::min(moment, largest) / unit), std::memory_order_relaxed);
+  add_relaxed(moments_[cell(sample.index, sample.p)],
+              static_cast<int64_t>(std::min(moment, largest) / unit));
 }
 
 // Per cell, what its probability should be in proportion to.

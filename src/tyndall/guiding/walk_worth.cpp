@@ -6,6 +6,7 @@
 #include <cmath>
 #include <span>
 
+#include "tyndall/math/add_relaxed.h"
 #include "tyndall/math/scalar.h"
 
 namespace tyndall {
@@ -26,10 +27,6 @@ size_t direction(Vec3 w) {
   int axis = std::abs(w.x) > std::abs(w.y) ? 0 : 1;
   if (std::abs(w.z) > std::abs(w[axis])) axis = 2;
   return 2 * static_cast<size_t>(axis) + (w[axis] > 0 ? 1 : 0);
-}
-
-void add(std::atomic<int64_t>& sum, int64_t term) {
-  sum.fetch_add(term, std::memory_order_relaxed);
 }
 
 struct Sums {
@@ -86,9 +83,10 @@ void WalkWorth::record(size_t place, float value, float cost) const {
   const double square = sqr(double{value});
   if (!std::isfinite(square) || !(cost >= 0)) return;
   Tally& tally = places_[place];
-  add(tally.squares, static_cast<int64_t>(std::min(square, largest_square) / square_unit));
-  add(tally.cost, static_cast<int64_t>(double{cost} / cost_unit));
-  add(tally.walks, 1);
+  add_relaxed(tally.squares,
+              static_cast<int64_t>(std::min(square, largest_square) / square_unit));
+  add_relaxed(tally.cost, static_cast<int64_t>(double{cost} / cost_unit));
+  add_relaxed(tally.walks, 1);
 }
 
 void WalkWorth::clear() {

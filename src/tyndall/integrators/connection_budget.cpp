@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tyndall/math/add_relaxed.h"
 #include "tyndall/math/scalar.h"
 
 namespace tyndall {
@@ -55,10 +56,6 @@ int64_t quantize(double value) {
   return std::isfinite(value) ? static_cast<int64_t>(std::min(value, largest) / unit) : 0;
 }
 
-void add(std::atomic<int64_t>& sum, int64_t term) {
-  sum.fetch_add(term, std::memory_order_relaxed);
-}
-
 }  // namespace
 
 struct ConnectionBudget::Worth {
@@ -89,15 +86,15 @@ size_t ConnectionBudget::region(Vec2i pixel) const {
 
 void ConnectionBudget::record(size_t region, Effort effort, int depth, float value) const {
   Cell& c = regions_[region].cells[cell(effort, depth)];
-  add(c.squares, quantize(sqr(double{value} * scale_)));
-  add(c.visits, 1);
+  add_relaxed(c.squares, quantize(sqr(double{value} * scale_)));
+  add_relaxed(c.visits, 1);
 }
 
 void ConnectionBudget::record_pair(size_t region, Effort effort, int depth,
                                    float half_squared_difference) const {
   Cell& c = regions_[region].cells[cell(effort, depth)];
-  add(c.variance, quantize(double{half_squared_difference} * sqr(scale_)));
-  add(c.pairs, 1);
+  add_relaxed(c.variance, quantize(double{half_squared_difference} * sqr(scale_)));
+  add_relaxed(c.pairs, 1);
 }
 
 float ConnectionBudget::cost(Effort effort, int count) {
@@ -112,25 +109,25 @@ void ConnectionBudget::record_path(Vec2i pixel, const Finished& path) const {
   Region& r = regions_[region(pixel)];
   const int64_t radiance = quantize(double{path.value} * scale_);
   recent_.record(pixel, radiance);
-  add(r.radiance, radiance);
-  add(r.paths, 1);
-  add(r.recent.squares, quantize(sqr(double{path.value} * scale_)));
-  add(r.recent.paths, 1);
-  add(r.recent.cost,
-      static_cast<int64_t>(double{path_cost(path.legs, path.spent)} / cost_unit));
-  add(r.recent.lit_gain, quantize(double{path.lit_gain} * sqr(scale_)));
-  add(r.recent.lit_cost,
-      static_cast<int64_t>(overhead_ * double{path.lit_spent} / cost_unit));
+  add_relaxed(r.radiance, radiance);
+  add_relaxed(r.paths, 1);
+  add_relaxed(r.recent.squares, quantize(sqr(double{path.value} * scale_)));
+  add_relaxed(r.recent.paths, 1);
+  add_relaxed(r.recent.cost,
+              static_cast<int64_t>(double{path_cost(path.legs, path.spent)} / cost_unit));
+  add_relaxed(r.recent.lit_gain, quantize(double{path.lit_gain} * sqr(scale_)));
+  add_relaxed(r.recent.lit_cost,
+              static_cast<int64_t>(overhead_ * double{path.lit_spent} / cost_unit));
 }
 
 void ConnectionBudget::record_plain_path(size_t region, const Finished& path) const {
   Tally& plain = regions_[region].plain;
   const int64_t square = quantize(sqr(double{path.value} * scale_));
-  add(plain.squares, square);
-  add(regions_[region].plain_fourths,
-      static_cast<int64_t>(sqr(static_cast<double>(square) * unit) / fourth_unit));
-  add(plain.paths, 1);
-  add(plain.cost, static_cast<int64_t>(leg_cost * path.legs / cost_unit));
+  add_relaxed(plain.squares, square);
+  add_relaxed(regions_[region].plain_fourths,
+              static_cast<int64_t>(sqr(static_cast<double>(square) * unit) / fourth_unit));
+  add_relaxed(plain.paths, 1);
+  add_relaxed(plain.cost, static_cast<int64_t>(leg_cost * path.legs / cost_unit));
 }
 
 ConnectionBudget::Worth ConnectionBudget::worth() const {

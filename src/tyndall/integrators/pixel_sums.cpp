@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "tyndall/math/add_relaxed.h"
+
 namespace tyndall {
 namespace {
 
@@ -29,8 +31,8 @@ void PixelSums::record(Vec2i pixel, int64_t value) const {
   const int y = block_of(pixel.y, resolution_.y, size_.y);
   Sum& sum =
       sums_[static_cast<size_t>(y) * static_cast<size_t>(size_.x) + static_cast<size_t>(x)];
-  sum.value.fetch_add(value, std::memory_order_relaxed);
-  sum.count.fetch_add(1, std::memory_order_relaxed);
+  add_relaxed(sum.value, value);
+  add_relaxed(sum.count, 1);
 }
 
 void PixelSums::clear() {
