@@ -144,5 +144,19 @@ TEST(FilterValueTest, PositiveFiltersHaveUnitWeight) {
   }
 }
 
+// The density is what eval() is, made to integrate to one.
+TEST_P(FilterTest, DensityFollowsTheFilter) {
+  const Filter filter(GetParam().settings);
+  const double norm = integral(filter, true, one);
+  double largest = double{filter.eval({0, 0})} / norm;
+  for (int i = 0; i < 2000; ++i) {
+    const Vec2 u{(static_cast<float>(i % 50) + 0.5f) / 50,
+                 (static_cast<float>(i / 50) + 0.5f) / 40};
+    const Vec2 p{GetParam().settings.radius.x * (2.2f * u.x - 1.1f),
+                 GetParam().settings.radius.y * (2.2f * u.y - 1.1f)};
+    EXPECT_NEAR(filter.density(p), double{filter.eval(p)} / norm, 0.01 * largest);
+  }
+}
+
 }  // namespace
 }  // namespace tyndall

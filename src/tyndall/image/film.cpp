@@ -7,6 +7,8 @@
 #include <limits>
 #include <string>
 
+#include "tyndall/math/parallel_for.h"
+
 namespace tyndall {
 namespace {
 
@@ -77,15 +79,52 @@ void Film::add(Vec2i position, const PathSample& sample, float weight) {
   add_guides(pixel, sample);
 }
 
+void Film::add_splats(std::span<const double> totals) {
+  assert(totals.size() == 3 * pixels_.size());
+  splats_.resize(pixels_.size());
+  ++splatted_;
+  parallel_for(static_cast<size_t>(height()), [&](size_t row) {
+    const size_t first = row * static_cast<size_t>(width());
+    for (size_t i = first; i < first + static_cast<size_t>(width()); ++i)
+      add_total(i, totals.subspan(3 * i).first<3>());
+  });
+}
+
+void Film::add_total(size_t pixel, std::span<const double, 3> total) {
+  const double sum = total[0] + total[1] + total[2];
+  if (!std::isfinite(sum)) {
+    ++(std::isnan(sum) ? pixels_[pixel].nan : pixels_[pixel].inf);
+    return;
+  }
+  for (size_t c = 0; c < 3; ++c) {
+    splats_[pixel].sum[c] += total[c];
+    splats_[pixel].sum_squares[c] += total[c] * total[c];
+  }
+}
+
+double Film::mean(size_t pixel, int channel) const {
+  const double mean = pixels_[pixel].mean[channel];
+  if (splatted_ == 0) return mean;
+  return mean + splats_[pixel].sum[static_cast<size_t>(channel)] / splatted_;
+}
+
+// Of the mean. Samples and splats are independent.
+double Film::variance(size_t pixel, int channel) const {
+  const double n = pixels_[pixel].count;
+  const double variance = n < 2 ? 0 : pixels_[pixel].sum_squares[channel] / (n * (n - 1));
+  if (splatted_ < 2) return variance;
+  const auto c = static_cast<size_t>(channel);
+  const double k = splatted_, sum = splats_[pixel].sum[c];
+  const double spread = splats_[pixel].sum_squares[c] - sum * sum / k;
+  return variance + std::max(spread, 0.0) / (k * (k - 1));
+}
+
 Image Film::develop() const {
   Image image(width(), height());
   image.offset = crop_min_;
   image.full_size = full_size_;
-  fill(image, "", "RGB", [&](size_t i, int c) { return to_float(pixels_[i].mean[c]); });
-  fill(image, "variance", "RGB", [&](size_t i, int c) {
-    const double n = pixels_[i].count;
-    return n < 2 ? 0 : to_float(pixels_[i].sum_squares[c] / (n * (n - 1)));
-  });
+  fill(image, "", "RGB", [&](size_t i, int c) { return to_float(mean(i, c)); });
+  fill(image, "variance", "RGB", [&](size_t i, int c) { return to_float(variance(i, c)); });
   const auto per_sample = [&](size_t i) {
     return 1 / static_cast<float>(std::max(pixels_[i].count, 1u));
   };

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "tyndall/image/image.h"
@@ -41,6 +43,11 @@ class Film {
   /// filter. Radiance that is not finite or is negative counts as black and as rejected;
   /// guides (albedo, normal, depth) that are not finite count as zero.
   void add(Vec2i pixel, const PathSample& sample, float weight);
+  /// Adds, to one more sample of each pixel, what splats have brought: `totals` has red,
+  /// green and blue of each pixel of the crop, row by row, and may be negative where the
+  /// filter is. Means and variances of samples and of splats are added. Totals that are not
+  /// finite count as black and as rejected.
+  void add_splats(std::span<const double> totals);
 
   /// R,G,B; variance.R,G,B (of the pixel's mean, as if its samples were independent; zero
   /// below two samples); albedo.R,G,B; normal.X,Y,Z (averages, not unit); depth.Z (average
@@ -58,6 +65,13 @@ class Film {
     uint32_t count = 0, depth_count = 0;
     uint32_t nan = 0, inf = 0, negative = 0;
   };
+  // Of the splats of all samples.
+  struct Splats {
+    std::array<double, 3> sum{}, sum_squares{};
+  };
+  void add_total(size_t pixel, std::span<const double, 3> total);
+  double mean(size_t pixel, int channel) const;
+  double variance(size_t pixel, int channel) const;
   static bool accept(Pixel& pixel, Rgb L);
   static void add_guides(Pixel& pixel, const PathSample& sample);
   Pixel& at(Vec2i pixel);
@@ -66,6 +80,8 @@ class Film {
 
   Vec2i full_size_, crop_min_, crop_max_;
   std::vector<Pixel> pixels_;
+  std::vector<Splats> splats_;  // of each pixel; empty before add_splats()
+  uint32_t splatted_ = 0;       // samples
 };
 
 }  // namespace tyndall

@@ -21,10 +21,6 @@ double mitchell(double x, double b, double c) {
          6;
 }
 
-size_t bin_of(float x, size_t bins) {
-  return std::min(static_cast<size_t>(x * static_cast<float>(bins)), bins - 1);
-}
-
 }  // namespace
 
 Filter::Filter(const FilterSettings& settings)
@@ -76,14 +72,28 @@ Filter::Axis Filter::make_axis(double radius) const {
           static_cast<float>(sum_magnitudes / sum)};
 }
 
+bool Filter::Axis::is_negative_at(float x) const {
+  const size_t bins = is_negative.size();
+  return is_negative[std::min(static_cast<size_t>(x * static_cast<float>(bins)), bins - 1)];
+}
+
 FilterSample Filter::sample(Vec2 u) const {
   const float x = x_.distribution.sample(u.x).x;
   const float y = y_.distribution.sample(u.y).x;
-  const bool negative = x_.is_negative[bin_of(x, x_.is_negative.size())] !=
-                        y_.is_negative[bin_of(y, y_.is_negative.size())];
+  const bool negative = x_.is_negative_at(x) != y_.is_negative_at(y);
   const float weight = x_.weight * y_.weight;
   return {.offset = {settings_.radius.x * (2 * x - 1), settings_.radius.y * (2 * y - 1)},
           .weight = negative ? -weight : weight};
+}
+
+float Filter::density(Vec2 offset) const {
+  const auto along = [](const Axis& axis, float t, float radius) {
+    const float x = 0.5f * (t / radius + 1);
+    if (!(x >= 0 && x < 1)) return 0.0f;
+    const float magnitude = axis.distribution.pdf(x) * axis.weight / (2 * radius);
+    return axis.is_negative_at(x) ? -magnitude : magnitude;
+  };
+  return along(x_, offset.x, settings_.radius.x) * along(y_, offset.y, settings_.radius.y);
 }
 
 }  // namespace tyndall

@@ -37,6 +37,10 @@ class Filter {
   /// Not normalised: only the shape means something. Zero outside the radius.
   float eval(Vec2 offset) const;
   FilterSample sample(Vec2 u) const;
+  /// What samples weigh around an offset: their density times their weight, whose integral
+  /// is one [1/pixel^2].
+  float density(Vec2 offset) const;
+  Vec2 radius() const { return settings_.radius; }  ///< [pixels]
 
  private:
   // One factor f(x) of the product, tabulated over [-radius, radius].
@@ -44,6 +48,8 @@ class Filter {
     PiecewiseConstant1D distribution;  // of |f|
     std::vector<bool> is_negative;     // by bin
     float weight = 1;                  // integral of |f| over integral of f
+
+    bool is_negative_at(float x) const;
   };
   double eval_axis(double x, double radius) const;
   Axis make_axis(double radius) const;
