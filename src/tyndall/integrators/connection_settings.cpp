@@ -35,14 +35,19 @@ const std::vector<std::pair<std::string, ConnectionSettings>>& integrators() {
 using Switch = void (*)(ConnectionSettings&, bool is_on);
 using Switches = std::map<std::string_view, Switch>;
 
-// What can be turned off, by the integrator's name and a dot.
+const Switches::value_type particles{
+    "particles", [](ConnectionSettings& s, bool is_on) { s.particles = is_on; }};
+
+// What can be turned off: parts of what is learned by "learned" and a dot.
 const Switches& switches_of(const std::string& integrator) {
-  static const Switches none;
+  static const Switches plain{particles};
   static const Switches zhou2016{
+      particles,
       {"learned.product", [](ConnectionSettings& s, bool is_on) { s.product = is_on; }},
       {"learned.pretraining",
        [](ConnectionSettings& s, bool is_on) { s.pretraining = is_on; }}};
   static const Switches learned{
+      particles,
       {"learned.direction", [](ConnectionSettings& s, bool is_on) { s.direction = is_on; }},
       {"learned.product", [](ConnectionSettings& s, bool is_on) { s.product = is_on; }},
       {"learned.pretraining",
@@ -53,7 +58,7 @@ const Switches& switches_of(const std::string& integrator) {
          if (!is_on) s.lit_surfaces = 0;
        }}};
   if (integrator == "learned") return learned;
-  return integrator == "zhou2016" ? zhou2016 : none;
+  return integrator == "zhou2016" ? zhou2016 : plain;
 }
 
 bool parse_switch(const std::string& name, const std::string& value) {

@@ -28,6 +28,8 @@ struct ConnectionSettings {
   /// Connect to surfaces that lights shine on, by way of as many surfaces in all; zero: do
   /// not.
   int lit_surfaces = 0;
+  /// Trace light over specular surfaces into the camera where a scene gives reason to.
+  bool particles = true;
   bool roulette = false;    ///< learn how likely walks are to go on
   bool direction = false;   ///< learn the directions of dual connections
   bool product = true;      ///< ... and multiply them by the phase function

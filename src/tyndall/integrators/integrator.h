@@ -12,6 +12,8 @@
 
 namespace tyndall {
 
+class ParticleTracer;
+
 /// Estimates the radiance along camera rays. One render, one integrator.
 class Integrator {
  public:
@@ -28,6 +30,10 @@ class Integrator {
   /// it wants to be called again; a function of `first` alone, so that time limits change
   /// nothing.
   virtual uint32_t prepare(uint32_t /*first*/) { return unlimited; }
+
+  /// Particles out of lights that find what Li() leaves to them; null if there are none.
+  /// Those of as many samples as Li() is asked for are to be traced.
+  virtual const ParticleTracer* particles() const { return nullptr; }
 
   /// Adds counters and notes.
   virtual void report(RenderStatistics& /*statistics*/) const {}

@@ -12,6 +12,10 @@ namespace tyndall {
 /// Stands for infinity where a product with zero must stay zero [scene units].
 inline constexpr float far_distance = 1e30f;
 
+/// Rays between two points stop short of the second by this share of their length, lest
+/// they hit what is there.
+inline constexpr float shadow_shortening = 1e-4f;
+
 /// The straight way of light from a vertex to the first surface that is not a mere
 /// boundary, cut into spans of one medium each. Traced once somebody asks.
 class Leg {

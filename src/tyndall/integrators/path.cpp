@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "tyndall/media/tracking.h"
+#include "tyndall/integrators/free_flight.h"
 #include "tyndall/sampling/mis.h"
 
 namespace tyndall {
@@ -118,40 +118,13 @@ bool Path::arrive(float t) {
 
 // Delta tracking. Returns the distance along the leg of the first real collision.
 std::optional<float> Path::sample_collision(const Ray& ray, const Leg::Span& span) {
-  std::optional<float> t_collision;
-  const Ray rest{ray.at(span.t_min), ray.d};
-  const auto on_collision = [&](float t, const MediumProperties& properties, Rgb majorant,
-                                Rgb relative_transmittance) {
-    const Rgb sigma_t = properties.sigma_t();
-    if (tracking_.next_1d() * majorant[hero_] < sigma_t[hero_]) {
-      collide(properties, relative_transmittance);
-      t_collision = span.t_min + t;
-      return false;
-    }
-    const Rgb sigma_n = clamp_negative(majorant - sigma_t);
-    if (!(sigma_n[hero_] > 0)) return true;  // rounding; the next collision is as good
-    if (rules_.is_chromatic) pass(relative_transmittance * sigma_n / sigma_n[hero_]);
-    return true;
-  };
-  const Rgb to_end = span.medium->visit([&](const auto& medium) {
-    return sample_collisions(medium, rest, span.t_max - span.t_min, hero_, tracking_,
-                             on_collision);
-  });
-  if (!t_collision && rules_.is_chromatic) pass(to_end);
-  return t_collision;
-}
-
-void Path::collide(const MediumProperties& properties, Rgb relative_transmittance) {
-  const Rgb sigma_t = properties.sigma_t();
-  const float hero = sigma_t[hero_];
-  beta_ *= relative_transmittance * properties.sigma_s / hero;
-  spectral_ *= relative_transmittance * sigma_t / hero;
-}
-
-// What did not collide: the same factor for the integrand and the density of each channel.
-void Path::pass(Rgb factor) {
-  beta_ *= factor;
-  spectral_ *= factor;
+  const FreeFlight flight =
+      sample_free_flight(*span.medium, {ray.at(span.t_min), ray.d}, span.t_max - span.t_min,
+                         hero_, rules_.is_chromatic, {beta_, spectral_}, tracking_);
+  beta_ = flight.carried.beta;
+  spectral_ = flight.carried.spectral;
+  if (!flight.t) return std::nullopt;
+  return span.t_min + *flight.t;
 }
 
 // Of the whole leg: what is expected of walks along it, whatever this one does.
@@ -171,8 +144,11 @@ void Path::add_surface_emission(const SurfaceHit& hit) {
   const auto* area = std::get_if<AreaLight>(&hit.light->variant());
   const Rgb Le = area->Le(hit.point, -ray_.d);
   if (is_black(Le)) return;
-  const float light_pdf = start_.is_specular ? 0 : hit.light->pdf(start_.p, hit.point);
-  add(beta_ * Le * hit_weight(hit.light_index, light_pdf, hit.t));
+  const float weight =
+      start_.is_specular
+          ? weight_beside_particles(hit)
+          : hit_weight(hit.light_index, hit.light->pdf(start_.p, hit.point), hit.t);
+  add(beta_ * Le * weight);
 }
 
 void Path::add_environment() {
@@ -200,6 +176,7 @@ bool Path::scatter() {
   if (!s) return false;
   beta_ *= s->value / s->pdf;
   eta_scale_ *= sqr(s->eta);
+  if (rules_.particles) particle_ratio_ = particle_ratio(*s);
   start_before_ = start_;
   start_ = start_of_leg(*vertex_, t_vertex_, s->pdf, s->is_specular);
   ray_ = vertex_->spawn(s->wi);

@@ -16,6 +16,7 @@
 namespace tyndall {
 
 class DualDirection;
+class ParticleTracer;
 
 /// What every path of a render shares.
 struct PathRules {
@@ -32,11 +33,9 @@ struct PathRules {
   const WalkWorth* worth = nullptr;
   bool sees_through =
       false;  ///< nothing hides a light from a connection: for training only
+  /// Null: walks alone find light that lamps send over specular surfaces.
+  const ParticleTracer* particles = nullptr;
 };
-
-/// Rays between two points stop short of the second by this share of their length, lest
-/// they hit what is there.
-inline constexpr float shadow_shortening = 1e-4f;
 
 /// One camera path in the making: a random walk whose steps are its member functions.
 ///
@@ -77,8 +76,6 @@ class Path {
   bool meet_medium(float t, const Medium* medium);
   std::optional<float> fly_freely(Leg& leg);
   std::optional<float> sample_collision(const Ray& ray, const Leg::Span& span);
-  void collide(const MediumProperties& properties, Rgb relative_transmittance);
-  void pass(Rgb factor);
   void add_glow(Leg& leg);
   void add_surface_emission(const SurfaceHit& hit);
   void add_environment();
@@ -105,6 +102,8 @@ class Path {
   bool is_left_to_connections(size_t light);
   float direct_weight(const LightEnd& end);
   float hit_weight(size_t light, float light_pdf, float distance);
+  float particle_ratio(const DirectionSample& s) const;
+  float weight_beside_particles(const SurfaceHit& hit) const;
   bool counts(int in_media, int on_surfaces = 0) const;
   // What one connection finds, before spectral MIS.
   Rgb connect_single(Leg& leg);
@@ -172,9 +171,10 @@ class Path {
   LegStart start_;                                    // of leg_
   LegStart start_before_;                             // of leg_before_
   PathSample result_;
-  size_t region_ = 0;    // of the budget
-  float spent_ = 0;      // on connections
-  float lit_share_ = 0;  // weight of the last connection to a lit surface
+  float particle_ratio_ = 0;  // ParticleRatio of the vertices so far
+  size_t region_ = 0;         // of the budget
+  float spent_ = 0;           // on connections
+  float lit_share_ = 0;       // weight of the last connection to a lit surface
   float lit_gain_ = 0, lit_spent_ = 0;
 
   // Where the walk left its first vertices, and what the path was worth until then.

@@ -51,8 +51,9 @@ PathTracer::PathTracer(const Scene& scene, const RenderSettings& settings,
               std::ranges::any_of(scene.lights(), can_be_hit),
           .filling = filling(scene),
           .connections = nullptr,
-          .budget = nullptr},
-      plain_rules_(rules_) {
+          .budget = nullptr} {
+  if (connections.particles) add_particles(settings);
+  plain_rules_ = rules_;
   const ConnectionSettings useful = useful_connections(scene, connections);
   if (!useful.single) {
     if (connections.single)
@@ -68,6 +69,17 @@ PathTracer::PathTracer(const Scene& scene, const RenderSettings& settings,
                   connections_->visibility() ? overhead_of_visibility : overhead);
   rules_.budget = &*budget_;
   if (connections.roulette) learn_worth();
+}
+
+void PathTracer::add_particles(const RenderSettings& settings) {
+  particles_.emplace(scene_, settings,
+                     ParticleRules{.max_depth = rules_.max_depth,
+                                   .orders = rules_.orders,
+                                   .is_chromatic = rules_.is_chromatic});
+  if (particles_->is_useful())
+    rules_.particles = &*particles_;
+  else
+    particles_.reset();
 }
 
 void PathTracer::learn_worth() {
@@ -164,6 +176,8 @@ void PathTracer::record_plain_paths() const {
 
 void PathTracer::report(RenderStatistics& statistics) const {
   for (const std::string& note : notes_) statistics.notes.push_back(note);
+  if (rules_.particles)
+    statistics.counters["particles"] = double{rules_.particles->count()};
   if (!budget_) return;
   statistics.counters["connections.single"] = budget_->mean_count(Effort::single, 0);
   statistics.counters["connections.dual"] = budget_->mean_count(Effort::dual, 0);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "tyndall/integrators/integrator.h"
+#include "tyndall/integrators/particle_tracer.h"
 #include "tyndall/integrators/path.h"
 
 namespace tyndall {
@@ -16,6 +17,7 @@ class PathTracer : public Integrator {
 
   PathSample Li(const Ray& ray, Sampler& sampler) const override;
   uint32_t prepare(uint32_t first) override;
+  const ParticleTracer* particles() const override { return rules_.particles; }
   void report(RenderStatistics& statistics) const override;
   bool learns() const override;
   void dump(GuidingFileWriter& out) const override;
@@ -32,6 +34,7 @@ class PathTracer : public Integrator {
   float pilot_radiance() const;
   void pretrain(DirectionGuiding& guiding) const;
   void record_plain_paths() const;
+  void add_particles(const RenderSettings& settings);
   void learn_worth();
   void update();
   void give_up_connections();
@@ -41,6 +44,7 @@ class PathTracer : public Integrator {
   std::optional<ConnectionContext> connections_;
   std::optional<ConnectionBudget> budget_;
   std::optional<WalkWorth> worth_;
+  std::optional<ParticleTracer> particles_;
   PathRules rules_, plain_rules_;
   std::vector<std::string> notes_;
   bool was_tried_ = false;  // whether connections pay

@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "tyndall/integrators/integrator.h"
+#include "tyndall/integrators/particle_pass.h"
 #include "tyndall/math/parallel_for.h"
 
 namespace tyndall {
@@ -54,6 +55,7 @@ class RenderJob {
         settings_(settings),
         options_(options),
         filter_(settings.filter),
+        particle_pass_(filter_, settings),
         film_(settings.resolution, settings.crop_min, settings.crop_max) {}
 
   RenderResult run() {
@@ -150,6 +152,9 @@ class RenderJob {
       const auto tile = static_cast<int>(i);
       render_tile({tile % columns, tile / columns}, pass);
     });
+    if (const ParticleTracer* particles = integrator_->particles())
+      for (uint32_t i = pass.first; i < pass.first + pass.count; ++i)
+        particle_pass_.run(*particles, i, film_);
     seconds_per_sample_ = std::max((clock_.seconds() - start) / pass.count, 1e-9);
   }
 
@@ -210,6 +215,7 @@ class RenderJob {
   double cpu_start_ = process_cpu_seconds();
   std::unique_ptr<Integrator> integrator_;
   Filter filter_;
+  ParticlePass particle_pass_;
   Film film_;
   RenderStatistics statistics_;
   uint32_t done_ = 0, last_pass_ = 1;

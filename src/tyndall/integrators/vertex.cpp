@@ -24,6 +24,14 @@ float Vertex::pdf(Vec3 wi) const {
   return bsdf_ ? bsdf_->pdf(wo_, wi) : medium_->pdf_phase(p_, wo_, wi);
 }
 
+Rgb Vertex::eval_from(Vec3 w) const {
+  return bsdf_ ? bsdf_->eval(w, wo_) : medium_->eval_phase(p_, w, wo_);
+}
+
+float Vertex::pdf_from(Vec3 w) const {
+  return bsdf_ ? bsdf_->pdf(w, wo_) : medium_->pdf_phase(p_, w, wo_);
+}
+
 std::optional<DirectionSample> Vertex::sample(Sampler& sampler) const {
   if (!bsdf_) {
     const std::optional<MediumDirection> s =

@@ -33,6 +33,9 @@ class Vertex {
   /// Phase function, or BSDF times cosine [1/sr]; zero where it is a Dirac delta.
   Rgb eval(Vec3 wi) const;
   float pdf(Vec3 wi) const;  ///< of sample() w.r.t. solid angle [1/sr]
+  /// The same for light that goes the other way: seen from w, arriving from wo().
+  Rgb eval_from(Vec3 w) const;
+  float pdf_from(Vec3 w) const;
   /// Empty if the light is absorbed.
   std::optional<DirectionSample> sample(Sampler& sampler) const;
   /// No connection can succeed.

@@ -77,13 +77,10 @@ std::optional<std::vector<int>> media_at_start(const Scene& scene, const Ray& ra
 
 }  // namespace
 
-CameraMediumFinding find_camera_medium(const Scene& scene, int stated) {
-  std::vector<int> otherwise;
-  if (stated != no_medium) otherwise.push_back(stated);
+CameraMediumFinding find_media(const Scene& scene, Vec3 p, std::vector<int> otherwise) {
   std::map<std::vector<int>, int> votes;
   for (int i = 0; i < direction_count; ++i)
-    ++votes[media_at_start(scene, {scene.camera().position(), lattice_direction(i)})
-                .value_or(otherwise)];
+    ++votes[media_at_start(scene, {p, lattice_direction(i)}).value_or(otherwise)];
   const auto winner =
       std::ranges::max_element(votes, {}, [](const auto& v) { return v.second; });
   CameraMediumFinding finding{winner->first, ""};
@@ -94,6 +91,12 @@ CameraMediumFinding find_camera_medium(const Scene& scene, int stated) {
                      std::to_string(direction_count) +
                      " directions): a boundary between media may be open or inside out";
   return finding;
+}
+
+CameraMediumFinding find_camera_medium(const Scene& scene, int stated) {
+  std::vector<int> otherwise;
+  if (stated != no_medium) otherwise.push_back(stated);
+  return find_media(scene, scene.camera().position(), otherwise);
 }
 
 }  // namespace tyndall

@@ -136,6 +136,13 @@ class Scene::Impl {
     return index == no_medium ? nullptr : &description.media[static_cast<size_t>(index)];
   }
 
+  // All of them at once.
+  const Medium* medium_of(const std::vector<int>& media) const {
+    const Medium* all = nullptr;
+    for (const int index : media) all = sets.cross(all, nullptr, medium(index));
+    return all;
+  }
+
   SceneDescription description;
   Intersector intersector;
   MediumSets sets;
@@ -198,9 +205,7 @@ Scene::Scene(SceneDescription description)
     : impl_(std::make_unique<Impl>(std::move(description))) {
   const CameraMediumFinding finding =
       find_camera_medium(*this, impl_->description.camera_medium);
-  for (const int medium : finding.media)
-    impl_->camera_medium =
-        impl_->sets.cross(impl_->camera_medium, nullptr, impl_->medium(medium));
+  impl_->camera_medium = impl_->medium_of(finding.media);
   impl_->camera_media = finding.media;
   const auto check = [&](const std::vector<Surface>& surfaces) {
     for (std::string& remark : check_boundaries(surfaces))
@@ -221,6 +226,18 @@ Bounds3 Scene::bounds() const { return impl_->bounds; }
 std::optional<size_t> Scene::volume_light() const { return impl_->volume_light; }
 bool Scene::has_glow() const { return impl_->has_glow; }
 bool Scene::has_boundaries() const { return impl_->has_boundaries; }
+
+const Medium* Scene::surrounding_medium(Vec3 p) const {
+  std::vector<int> otherwise;
+  if (impl_->description.camera_medium != no_medium)
+    otherwise.push_back(impl_->description.camera_medium);
+  return impl_->medium_of(find_media(*this, p, otherwise).media);
+}
+
+const Medium* Scene::medium_at_infinity(Vec3 w) const {
+  MediumSpans spans;
+  return media_along({camera().position(), w}, infinity, camera_medium(), spans);
+}
 
 const Medium* Scene::filling_medium() const {
   return has_boundaries() ? nullptr : camera_medium();

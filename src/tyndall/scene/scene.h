@@ -60,6 +60,11 @@ class Scene {
   const Medium* camera_medium() const;
   /// The indices of the media in it.
   const std::vector<int>& camera_media() const;
+  /// What surrounds a point, found in the same way; where nothing tells, what the
+  /// description says of the camera.
+  const Medium* surrounding_medium(Vec3 p) const;
+  /// What light from infinitely far in the unit direction `w` comes through.
+  const Medium* medium_at_infinity(Vec3 w) const;
   const std::vector<Light>& lights() const;
   Bounds3 bounds() const;
 
