@@ -2,17 +2,38 @@
 #include "tyndall/techniques/double_scattering_direction.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "tyndall/math/elementary.h"
 #include "tyndall/math/scalar.h"
 
 namespace tyndall {
+namespace {
+
+using Place = LinearRows::Blend::Place;
+
+constexpr int theta_cells = ScatteringTables::theta_cells;
+constexpr int azimuth_cells = ScatteringTables::azimuth_cells;
+constexpr int azimuth_rows = ScatteringTables::azimuth_rows;
+
+/// 1 / (2 i + 1)
+constexpr auto inverse_odd = [] {
+  std::array<float, azimuth_rows> values{};
+  for (size_t i = 0; i < values.size(); ++i)
+    values[i] = 1 / (2 * static_cast<float>(i) + 1);
+  return values;
+}();
+
+}  // namespace
 
 /// Where the tables look a direction up.
 struct DoubleScatteringDirection::TablePoint {
   ThetaWarp warp;
-  float z;       ///< of warp
-  float e, eta;  ///< row and column of the azimuth
+  float z;  ///< of warp
+  Place theta;
+  float e;  ///< row of the azimuth
+  Place azimuth;
 };
 
 /// A direction around the frame's z axis; half angles keep their digits at both poles.
@@ -28,7 +49,11 @@ DoubleScatteringDirection::DoubleScatteringDirection(const ScatteringTables& tab
                                                      Vec3 w_ab, Vec3 pivot)
     : tables_(&tables) {
   look_at(b, pivot);
-  if (!is_proper_ || tables.is_isotropic()) return;
+  if (!is_proper_) return;
+  if (tables.is_isotropic()) {
+    frame_ = Frame::from_z(frame_.z);
+    return;
+  }
   const Vec3 to_pivot = frame_.z;
   // Scattering backward is scattering forward into the opposite direction.
   if (tables.g() < 0) w_ab = -w_ab;
@@ -39,6 +64,8 @@ DoubleScatteringDirection::DoubleScatteringDirection(const ScatteringTables& tab
   if (across_length > 0) {
     frame_.x = across / across_length;
     frame_.y = cross(frame_.z, frame_.x);
+  } else {
+    frame_ = Frame::from_z(to_pivot);
   }
   y_alpha_ = tables.k_theta() * sin_half_ / (cos_half_ + tables.k_theta() * sin_half_);
   if (!(y_alpha_ >= 0 && y_alpha_ <= 1)) is_proper_ = false;
@@ -53,6 +80,7 @@ DoubleScatteringDirection::DoubleScatteringDirection(const ScatteringTables& tab
                                                      Vec3 pivot)
     : tables_(&tables), is_any_direction_(true) {
   look_at(b, pivot);
+  if (is_proper_) frame_ = Frame::from_z(frame_.z);
 }
 
 void DoubleScatteringDirection::look_at(Vec3 b, Vec3 pivot) {
@@ -62,41 +90,40 @@ void DoubleScatteringDirection::look_at(Vec3 b, Vec3 pivot) {
   const double distance = std::sqrt(x_ * x_ + y_ * y_ + z_ * z_);
   is_proper_ = distance > 0 && distance < double(infinity);
   if (!is_proper_) return;
-  x_ /= distance;
-  y_ /= distance;
-  z_ /= distance;
-  frame_ = Frame::from_z(
-      {static_cast<float>(x_), static_cast<float>(y_), static_cast<float>(z_)});
+  const double scale = 1 / distance;
+  x_ *= scale;
+  y_ *= scale;
+  z_ *= scale;
+  frame_.z = {static_cast<float>(x_), static_cast<float>(y_), static_cast<float>(z_)};
 }
 
-LinearRows::Blend DoubleScatteringDirection::half(bool is_above) const {
-  if (is_any_direction_) return tables_->theta_of_any_direction().row(0);
-  return tables_->theta().blend(2 * row_ + (is_above ? 1 : 0), 2, row_weight_);
+LinearRows::Blend DoubleScatteringDirection::polar_density() const {
+  return is_any_direction_ ? tables_->theta_of_any_direction().row(0)
+                           : tables_->theta().blend(row_, row_weight_);
 }
 
 /// tan(phi / 2) at which half of the azimuth's mass lies inside, up to the table's
 /// weighting: sqrt((1 - k) / (1 + k)) of the phase function (1 - k cos phi)^(-3/2) at this
 /// theta.
-float DoubleScatteringDirection::azimuth_ratio(const Polar& p) const {
+float DoubleScatteringDirection::azimuth_ratio(float sin_half, float cos_half) const {
   if (is_any_direction_) return 1;
   const float g = std::abs(tables_->g());
-  const float difference = sin_half_ * p.cos_half - cos_half_ * p.sin_half;
-  const float sum = sin_half_ * p.cos_half + cos_half_ * p.sin_half;
+  const float difference = sin_half_ * cos_half - cos_half_ * sin_half;
+  const float sum = sin_half_ * cos_half + cos_half_ * sin_half;
   const float ahead = sqr(1 - g) + 4 * g * sqr(difference);
   const float behind = sqr(1 - g) + 4 * g * sqr(sum);
   return std::sqrt(ahead / behind);
 }
 
 LinearRows::Blend DoubleScatteringDirection::azimuth(float e) const {
-  const LinearRows& table = tables_->azimuth();
-  const int last = table.rows() - 1;
-  const float position =
-      e > 0 ? std::sqrt(std::min(e, 1.0f)) * static_cast<float>(last) : 0;
+  constexpr int last = azimuth_rows - 1;
+  const float position = e > 0 ? std::sqrt(std::min(e, 1.0f)) * last : 0;
   const int row = std::min(static_cast<int>(position), last - 1);
   const auto i = static_cast<float>(row);
   // Between e = (i / last)^2 and ((i + 1) / last)^2.
-  const float weight = (position - i) * (position + i) / (2 * i + 1);
-  return table.blend(row, 1, std::clamp(weight, 0.0f, 1.0f));
+  const float weight =
+      (position - i) * (position + i) * inverse_odd[static_cast<size_t>(row)];
+  return tables_->azimuth().blend(row, std::clamp(weight, 0.0f, 1.0f));
 }
 
 std::optional<DoubleDirectionSample> DoubleScatteringDirection::sample(Vec2 u) const {
@@ -108,43 +135,43 @@ std::optional<DoubleDirectionSample> DoubleScatteringDirection::sample_isotropic
     Vec2 u) const {
   // u = 1 - (1 - theta / pi)^2; the second form of theta keeps its digits near zero.
   const float root = safe_sqrt(1 - u.x);
-  const float theta = pi * u.x / (1 + root), phi = 2 * pi * u.y;
-  const float sin_theta = std::sin(theta);
-  const Vec3 w = frame_.to_world(
-      {sin_theta * std::cos(phi), sin_theta * std::sin(phi), std::cos(theta)});
-  const float density = density_or_zero(isotropic_pdf(pi * root, sin_theta_of(w)));
+  const SineCosine theta = sine_cosine_of_turns(0.5f * u.x / (1 + root));
+  const SineCosine phi = sine_cosine_of_turns(u.y);
+  const Vec3 w =
+      frame_.to_world({theta.sine * phi.cosine, theta.sine * phi.sine, theta.cosine});
+  const float density = density_or_zero(isotropic_pdf(w, pi * root));
   if (!(density > 0)) return std::nullopt;
   return DoubleDirectionSample{.w = w, .pdf = density};
 }
 
 std::optional<DoubleDirectionSample> DoubleScatteringDirection::sample_tables(
     Vec2 u) const {
-  const float below = is_any_direction_ ? 0 : half(false).mass();
-  const bool is_above = u.x >= below;
-  const ThetaWarp warp{y_alpha_, is_above};
-  const auto polar_point = half(is_above).invert(is_above ? u.x - below : u.x);
-  const float y = warp.y(polar_point.x);
-  Polar p{};
-  const float sine = y, cosine = tables_->k_theta() * (1 - y);
-  const float scale = 1 / std::sqrt(sqr(sine) + sqr(cosine));
-  p.sin_half = sine * scale;
-  p.cos_half = cosine * scale;
+  const auto theta = polar_density().invert(u.x);
+  const int piece = is_any_direction_ ? 1 : theta.place.cell / theta_cells;
+  const int cell = theta.place.cell & (theta_cells - 1);
+  const ThetaWarp warp(y_alpha_, static_cast<float>(2 * piece - 1));
+  const float z = (static_cast<float>(cell) + theta.place.part) * (1.0f / theta_cells);
+  // Half of the polar angle: its sine and cosine are these over their length.
+  const float k = tables_->k_theta(), y = warp.y(z), x = k * (1 - y);
+  const float square = sqr(y) + sqr(x), scale = 1 / std::sqrt(square);
+  const float sin_half = y * scale, cos_half = x * scale;
 
   const float v = 2 * u.y - 1;
-  const float e = azimuth_ratio(p);
-  const auto azimuth_point = azimuth(e).invert(std::abs(v));
-  const float s = e * azimuth_point.x, c = 1 - azimuth_point.x;
-  const float n2 = 1 / (sqr(s) + sqr(c)), n = std::sqrt(n2);
-  p.sin_half_azimuth = s * n;
-  p.cos_half_azimuth = c * n;
+  const float e = azimuth_ratio(sin_half, cos_half);
+  const auto azimuth = this->azimuth(e).invert(std::abs(v));
+  const float eta = (static_cast<float>(azimuth.place.cell) + azimuth.place.part) *
+                    (1.0f / azimuth_cells);
+  const float s = e * eta, c = 1 - eta;  // the same of half the azimuth
+  const float square_azimuth = sqr(s) + sqr(c), n2 = 1 / square_azimuth;
 
-  const float sin_theta = p.sin_theta();
+  const float sin_theta = 2 * sin_half * cos_half;
   const Vec3 w = frame_.to_world({sin_theta * (c - s) * (c + s) * n2,
                                   sin_theta * std::copysign(2 * s * c * n2, v),
-                                  (p.cos_half - p.sin_half) * (p.cos_half + p.sin_half)});
-  const float density =
-      density_or_zero(polar_point.density / warp.slope(polar_point.x) * polar_slope(p) *
-                      azimuth_point.density * azimuth_slope(p, e) / sin_theta);
+                                  (cos_half - sin_half) * (cos_half + sin_half)});
+  // With dy / dtheta = square / (2 k) and deta / dphi = square_azimuth / (4 e).
+  const float density = density_or_zero(
+      theta.density * azimuth.density * square * square_azimuth *
+      (theta_cells * azimuth_cells * 0.125f) / (warp.slope(z) * k * e * sin_theta));
   if (!(density > 0)) return std::nullopt;
   return DoubleDirectionSample{.w = w, .pdf = density};
 }
@@ -175,8 +202,8 @@ DoubleScatteringDirection::Polar DoubleScatteringDirection::polar(Vec3 w) const 
   return p;
 }
 
-float DoubleScatteringDirection::isotropic_pdf(float angle_from_behind, float sin_theta) {
-  return angle_from_behind / (pi * pi * pi * sin_theta);
+float DoubleScatteringDirection::isotropic_pdf(Vec3 w, float angle_from_behind) const {
+  return angle_from_behind / (pi * pi * pi * sin_theta_of(w));
 }
 
 /// dy / dtheta
@@ -194,23 +221,29 @@ float DoubleScatteringDirection::pdf(Vec3 w) const {
   if (!is_proper_) return 0;
   const Polar p = polar(w);
   if (tables_->is_isotropic())
-    return density_or_zero(
-        isotropic_pdf(2 * std::atan2(p.cos_half, p.sin_half), p.sin_theta()));
-  const auto [warp, z, e, eta] = table_point(p);
-  if (!(warp.width() > 0)) return 0;
-  return density_or_zero(half(warp.is_above).density(z) / warp.slope(z) * polar_slope(p) *
-                         azimuth(e).density(eta) * azimuth_slope(p, e) / p.sin_theta());
+    return density_or_zero(isotropic_pdf(w, 2 * std::atan2(p.cos_half, p.sin_half)));
+  const TablePoint at = table_point(p);
+  if (!(at.warp.width > 0)) return 0;
+  const float of_theta = polar_density().density(at.theta) * theta_cells;
+  const float of_azimuth = azimuth(at.e).density(at.azimuth) * azimuth_cells;
+  return density_or_zero(of_theta / at.warp.slope(at.z) * polar_slope(p) * of_azimuth *
+                         azimuth_slope(p, at.e) / p.sin_theta());
 }
 
 DoubleScatteringDirection::TablePoint DoubleScatteringDirection::table_point(
     const Polar& p) const {
   const float k = tables_->k_theta(), y = k * p.sin_half / (p.cos_half + k * p.sin_half);
-  const ThetaWarp warp{y_alpha_, is_any_direction_ || y >= y_alpha_};
-  const float e = azimuth_ratio(p);
+  const bool is_above = is_any_direction_ || y >= y_alpha_;
+  const ThetaWarp warp(y_alpha_, is_above ? 1 : -1);
+  const float e = azimuth_ratio(p.sin_half, p.cos_half);
+  const float z = warp.width > 0 ? warp.z(y) : 0;
+  const float eta = p.sin_half_azimuth / (e * p.cos_half_azimuth + p.sin_half_azimuth);
+  const int piece = is_above && !is_any_direction_ ? 1 : 0;
   return {.warp = warp,
-          .z = warp.width() > 0 ? warp.z(y) : 0,
+          .z = z,
+          .theta = LinearRows::Blend::place(z, piece, theta_cells),
           .e = e,
-          .eta = p.sin_half_azimuth / (e * p.cos_half_azimuth + p.sin_half_azimuth)};
+          .azimuth = LinearRows::Blend::place(eta, 0, azimuth_cells)};
 }
 
 Vec2 DoubleScatteringDirection::invert(Vec3 w) const {
@@ -221,10 +254,9 @@ Vec2 DoubleScatteringDirection::invert(Vec3 w) const {
     const float phi = std::atan2(dot(w, frame_.y), dot(w, frame_.x)) * (0.5f * inv_pi);
     return {std::clamp(theta * (2 - theta), 0.0f, 1.0f), phi < 0 ? phi + 1 : phi};
   }
-  const auto [warp, z, e, eta] = table_point(p);
-  const float below = warp.is_above && !is_any_direction_ ? half(false).mass() : 0;
-  const float v = azimuth(e).cdf(eta);
-  return {std::clamp(below + half(warp.is_above).cdf(z), 0.0f, 1.0f),
+  const TablePoint at = table_point(p);
+  const float v = azimuth(at.e).cdf(at.azimuth);
+  return {std::clamp(polar_density().cdf(at.theta), 0.0f, 1.0f),
           std::clamp(0.5f + (p.is_negative ? -0.5f : 0.5f) * v, 0.0f, 1.0f)};
 }
 

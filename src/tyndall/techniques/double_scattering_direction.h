@@ -38,13 +38,13 @@ class DoubleScatteringDirection {
   void look_at(Vec3 b, Vec3 pivot);
   std::optional<DoubleDirectionSample> sample_isotropic(Vec2 u) const;
   std::optional<DoubleDirectionSample> sample_tables(Vec2 u) const;
-  static float isotropic_pdf(float angle_from_behind, float sin_theta);
+  float isotropic_pdf(Vec3 w, float angle_from_behind) const;
   float sin_theta_of(Vec3 w) const;
   Polar polar(Vec3 w) const;
   TablePoint table_point(const Polar& polar) const;
-  LinearRows::Blend half(bool is_above) const;
+  LinearRows::Blend polar_density() const;
   LinearRows::Blend azimuth(float e) const;
-  float azimuth_ratio(const Polar& polar) const;
+  float azimuth_ratio(float sin_half, float cos_half) const;
   float polar_slope(const Polar& polar) const;
   float azimuth_slope(const Polar& polar, float e) const;
 

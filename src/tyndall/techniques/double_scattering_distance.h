@@ -5,6 +5,7 @@
 #include <array>
 #include <optional>
 
+#include "tyndall/math/elementary.h"
 #include "tyndall/techniques/distance_taps.h"
 #include "tyndall/techniques/pivot_segment.h"
 #include "tyndall/techniques/samples.h"
@@ -28,13 +29,12 @@ class DoubleScatteringDistance {
   DoubleScatteringDistance(const ScatteringTables& tables, const PivotSegment& segment)
       : segment_(segment) {
     if (!segment_.is_proper() || !(segment_.length() < infinity)) return;
+    const float s = segment_.s_near(), r = segment_.r_near();
+    plus_near_ = segment_.plus(s, r);
     length_ = density_or_zero(log_way(segment_.length()));
     if (!tables.is_isotropic()) {
-      const float l = std::log(segment_.plus_near() > segment_.h()
-                                   ? segment_.plus_near() / segment_.h()
-                                   : segment_.h() / segment_.minus_near());
-      fluence_ =
-          tables.fluence().cursor(segment_.is_forward() ? l : -l, !segment_.is_forward());
+      const float l = std::copysign(log_of((r + magnitude(s)) / segment_.h()), s);
+      fluence_ = tables.fluence().cursor(l * segment_.sign(), segment_.sign());
       is_tabulated_ = true;
     }
     integral_ = density_or_zero(is_tabulated_ ? fluence_.integral(length_) : length_);
@@ -49,7 +49,10 @@ class DoubleScatteringDistance {
     if (!(integral_ > 0)) return std::nullopt;
     const float part = segment_.from_near(u) * integral_;
     const float way = is_tabulated_ ? fluence_.invert(part) : part;
-    const float t = segment_.t(segment_.offset_of_ratio(std::expm1(way)));
+    // s = ((r + s) - (r - s)) / 2, where r + s grows by the factor e^way.
+    const float growth = exp_minus_1(way);
+    const float minus_near = segment_.minus(segment_.s_near(), segment_.r_near());
+    const float t = segment_.t(0.5f * growth * (plus_near_ + minus_near / (1 + growth)));
     const float pdf = pdf_t(t);
     if (!(pdf > 0)) return std::nullopt;
     return DistanceSample{.t = t, .pdf_t = pdf};
@@ -79,17 +82,16 @@ class DoubleScatteringDistance {
   const PivotSegment& segment() const { return segment_; }
 
  private:
-  /// l at an offset minus l at the near end: the logarithm of the ratio of r + s.
+  /// l at an offset minus l at the near end: the logarithm of the ratio of r + s. Its
+  /// growth is written as a quotient in which nothing cancels.
   float log_way(float offset) const {
-    const float s = segment_.s(offset), r = segment_.r(s);
-    const float h = segment_.h();
-    const float plus = s > 0 ? r + s : h * h / (r - s);
-    // r + s changes by offset * (sum of r + s) / (sum of r): no difference is taken.
-    return std::log1p(offset * (1 + plus / segment_.plus_near()) / (r + segment_.r_near()));
+    const float s = segment_.s(offset);
+    return log_of_1_plus(2 * offset / (segment_.minus(s, segment_.r(s)) + plus_near_));
   }
 
   PivotSegment segment_;
   LinearTable::Cursor fluence_;
+  float plus_near_ = 0;  // r + s at the near end
   float length_ = 0, integral_ = 0;
   bool is_tabulated_ = false;
 };
@@ -112,7 +114,8 @@ DistanceTaps<K> DoubleScatteringDistance::taps() const {
   std::array<float, K>& x = taps.t;
   std::copy(ratio, ratio + lanes, x.begin());
   for (int k = 0; k + lanes < K; ++k) x[k + lanes] = x[k] * turn;
-  const float plus = 0.5f * segment_.plus_near(), minus = 0.5f * segment_.minus_near();
+  const float plus = 0.5f * plus_near_;
+  const float minus = 0.5f * segment_.minus(segment_.s_near(), segment_.r_near());
   const float t_near = segment_.t_near(), s_near = segment_.s_near();
   for (int k = 0; k < K; ++k) {
     const float p = plus * x[k], m = minus / x[k], s = p - m, r = p + m;

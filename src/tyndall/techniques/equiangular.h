@@ -5,6 +5,7 @@
 #include <array>
 #include <optional>
 
+#include "tyndall/math/elementary.h"
 #include "tyndall/techniques/distance_taps.h"
 #include "tyndall/techniques/pivot_segment.h"
 #include "tyndall/techniques/samples.h"
@@ -18,24 +19,31 @@ inline float inverse_square_integral(const PivotSegment& segment, float offset) 
   const double h = segment.h(), s0 = segment.s_near();
   const bool is_finite = offset < infinity;
   const double cosine = is_finite ? h * h + s0 * (s0 + offset) : s0;
-  const double sine_over_h = is_finite ? offset : 1;
-  const auto tangent_over_h = static_cast<float>(sine_over_h / cosine);
-  const float tangent = segment.h() * tangent_over_h;
-  if (cosine > 0)
-    return tangent > 0 ? std::atan(tangent) / tangent * tangent_over_h : tangent_over_h;
-  const float angle = cosine < 0 ? pi + std::atan(tangent) : 0.5f * pi;
-  return angle / segment.h();
+  const double sine_over_h = is_finite ? offset : 1, sine = h * sine_over_h;
+  const double run = std::abs(cosine);
+  const auto slope = static_cast<float>(std::min(sine, run) / std::max(sine, run));
+  const auto tangent_over_h = static_cast<float>(sine_over_h / run);
+  const auto flatness = static_cast<float>(run - sine), ahead = static_cast<float>(cosine);
+  const float inverse_h = 1 / segment.h(), half_turn = pi * inverse_h;
+  // From the direction of the near end, from the one back, or from the one across.
+  const float from = by_sign(flatness, by_sign(ahead, 0, half_turn), 0.5f * half_turn);
+  const float arc =
+      arc_tangent_over(slope) * by_sign(flatness, tangent_over_h, slope * inverse_h);
+  return from + flip_sign(arc, flatness, ahead);
 }
 
 /// The offset up to which inverse_square_integral() is `part`: the near end's direction
 /// from the pivot turned by the angle h * part.
 inline float inverse_square_offset(const PivotSegment& segment, float part) {
-  const float angle = segment.h() * part;
-  const float sine_over_h = angle > 0 ? std::sin(angle) / angle * part : part;
-  const float cosine = std::cos(angle) - segment.s_near() * sine_over_h;
-  if (!(cosine > 0)) return segment.length();
+  const float half_part = 0.5f * part, half = segment.h() * half_part;
+  const float square = half * half;
+  const float sine_over_h = half_part * sine_over(square);  // of half the angle
+  const float cosine = cosine_by_square(square);
+  const float turn_over_h = 2 * sine_over_h * cosine;
+  const float end = 1 - 2 * sqr(segment.h() * sine_over_h) - segment.s_near() * turn_over_h;
+  if (!(end > 0)) return segment.length();
   const float r = segment.r_near();
-  return std::min(r * sine_over_h * (r / cosine), segment.length());
+  return std::min(r * turn_over_h * (r / end), segment.length());
 }
 
 /// Draws distances in [t_min, t_max] with density proportional to the inverse squared

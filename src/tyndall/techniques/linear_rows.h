@@ -5,118 +5,130 @@
 #include <cassert>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
 namespace tyndall {
 
-/// Densities on [0, 1], one per row, each linear between the same equidistant nodes.
-/// Immutable.
+/// Densities of mass one, one per row, each linear within equal cells; cells may be in
+/// several pieces, between which it jumps. Immutable.
 class LinearRows {
  public:
   LinearRows() = default;
-  /// Row-major `values` at the nodes, (rows, cells + 1); positive or zero, and finite.
-  /// There are 64 cells.
-  LinearRows(std::span<const float> values, int rows);
+  /// Row-major `values` at the nodes, (rows, pieces, nodes of a piece), positive or zero,
+  /// finite, and not all zero in a row: a row is scaled to mass one.
+  LinearRows(std::span<const float> values, int rows, int pieces);
 
   class Blend;
-  /// Between row i and row i + stride: (1 - weight) of the one and `weight` of the other.
-  Blend blend(int row, int stride, float weight) const;
+  /// Between row i and row i + 1: (1 - weight) of the one and `weight` of the other.
+  Blend blend(int row, float weight) const;
   /// Row i alone.
   Blend row(int i) const;
 
   int rows() const { return rows_; }
-  float mass(int row) const { return cdf_[static_cast<size_t>(row + 1) * nodes_ - 1]; }
   /// Number of floats held.
-  size_t size() const { return values_.size() + cdf_.size() + blocks_.size(); }
+  size_t size() const { return cells_.size() * sizeof(Cell) / sizeof(float); }
 
  private:
-  static constexpr int block = 8;  // a search looks at so many numbers at once, twice
+  /// All that a look-up wants of a cell of a row lies together, with the row's neighbour's
+  /// next to it: seldom used tables are not in the processor's caches.
+  struct Cell {
+    float cdf;          // at its left end
+    float left, right;  // the density at its ends, in masses per cell
+    // Where the cdf is i / cells and (i + 1) / cells, for the i-th cell: in cells /
+    // fraction.
+    uint16_t guide[2];
+  };
+  static constexpr float fraction = 256;
 
-  std::vector<float> values_, cdf_;
-  std::vector<float> blocks_;  // of cdf_ every eighth
-  size_t nodes_ = 0;
-  int rows_ = 0;
+  const Cell& cell(int i, int row) const {
+    return cells_[static_cast<size_t>(i) * static_cast<size_t>(rows_) +
+                  static_cast<size_t>(row)];
+  }
+  void add_row(std::span<const float> values, int row, int pieces);
+
+  std::vector<Cell> cells_;  // (cell, row)
+  int rows_ = 0, row_cells_ = 0;
 };
 
-/// A linear mixture of two rows, again linear between the nodes. The rows must outlive it.
+/// A linear mixture of two rows, again linear within cells. The rows must outlive it.
 class LinearRows::Blend {
  public:
+  /// A point of a row: a cell, and how much of it lies to the left, in [0, 1].
+  struct Place {
+    int cell;
+    float part;
+  };
   struct Point {
-    float x;        ///< in [0, 1]
-    float density;  ///< there
+    Place place;
+    float density;  ///< there, in masses per cell
   };
 
-  /// The density at x in [0, 1]; integrates to mass().
-  float density(float x) const {
-    const float at_x = position(x);
-    const int i = cell(at_x);
-    const float f = at_x - static_cast<float>(i), a = mix(value_a_, value_b_, i);
-    return a + f * (mix(value_a_, value_b_, i + 1) - a);
+  /// Of the given piece, at x in [0, 1] along its `cells`.
+  static Place place(float x, int piece, int cells) {
+    const float at = (x > 0 ? std::min(x, 1.0f) : 0) * static_cast<float>(cells);
+    const int i = std::min(static_cast<int>(at), cells - 1);
+    return {piece * cells + i, at - static_cast<float>(i)};
   }
-  /// The integral of the density over [0, x].
-  float cdf(float x) const {
-    const float at_x = position(x);
-    const int i = cell(at_x);
-    const float f = at_x - static_cast<float>(i), a = mix(value_a_, value_b_, i);
-    const float slope = mix(value_a_, value_b_, i + 1) - a;
-    return mix(cdf_a_, cdf_b_, i) + f * (a + 0.5f * f * slope) / static_cast<float>(cells_);
+
+  float density(const Place& at) const {
+    const Mixed c = mixed(at.cell);
+    return c.left + at.part * (c.right - c.left);
   }
-  /// The point at which cdf() is `part`.
-  Point invert(float part) const {
-    const int eighth = last_below(block_a_, block_b_, part);
-    const int first = eighth * block;
-    const int i = first + last_below(cdf_a_ + first, cdf_b_ + first, part);
-    const float a = mix(value_a_, value_b_, i);
-    const float slope = mix(value_a_, value_b_, i + 1) - a;
-    const auto cells = static_cast<float>(cells_);
-    const float mass = std::max((part - mix(cdf_a_, cdf_b_, i)) * cells, 0.0f);
-    const float root = std::sqrt(std::max(a * a + 2 * slope * mass, 0.0f));
-    const float f = a + root > 0 ? std::min(2 * mass / (a + root), 1.0f) : 0;
-    return {(static_cast<float>(i) + f) / cells, a + f * slope};
+  /// The integral of the density up to there.
+  float cdf(const Place& at) const {
+    const Mixed c = mixed(at.cell);
+    return c.cdf + at.part * (c.left + 0.5f * at.part * (c.right - c.left));
   }
-  float mass() const { return mix(cdf_a_, cdf_b_, cells_); }
+  /// The point at which cdf() is u in [0, 1].
+  Point invert(float u) const {
+    int i = guess(u);
+    Mixed c = mixed(i);
+    while (u >= c.cdf + c.mass() && i + 1 < rows_->row_cells_) c = mixed(++i);
+    while (u < c.cdf && i > 0) c = mixed(--i);
+    const float mass = std::max(u - c.cdf, 0.0f), slope = c.right - c.left;
+    const float root = std::sqrt(std::max(c.left * c.left + 2 * slope * mass, 0.0f));
+    const float sum = c.left + root;
+    const float part = sum > 0 ? std::min(2 * mass / sum, 1.0f) : 0;
+    return {{i, part}, c.left + part * slope};
+  }
 
  private:
   friend class LinearRows;
-  float mix(const float* a, const float* b, int i) const {
-    return a[i] + weight_ * (b[i] - a[i]);
+  struct Mixed {
+    float cdf, left, right;
+    float mass() const { return 0.5f * (left + right); }
+  };
+  Blend(const LinearRows* rows, int row, int next, float weight)
+      : rows_(rows), row_(row), next_(next), weight_(weight) {}
+
+  Mixed mixed(int i) const {
+    const Cell &a = rows_->cell(i, row_), &b = rows_->cell(i, next_);
+    return {mix(a.cdf, b.cdf), mix(a.left, b.left), mix(a.right, b.right)};
   }
-  float position(float x) const {
-    return (x > 0 ? std::min(x, 1.0f) : 0) * static_cast<float>(cells_);
-  }
-  int cell(float position) const {
-    return std::min(static_cast<int>(position), cells_ - 1);
-  }
-  /// The last of eight growing numbers that is at most `part`, or the first.
-  int last_below(const float* a, const float* b, float part) const {
-    int below = 0;
-    for (int i = 1; i < block; ++i) below += mix(a, b, i) <= part ? 1 : 0;
-    return below;
+  float mix(float a, float b) const { return a + weight_ * (b - a); }
+  /// About the cell in which the cdf is u: that of a mixture lies between its rows'.
+  int guess(float u) const {
+    const int last = rows_->row_cells_ - 1;
+    const float at = u * static_cast<float>(rows_->row_cells_);
+    const int i = std::clamp(static_cast<int>(at), 0, last);
+    const Cell &a = rows_->cell(i, row_), &b = rows_->cell(i, next_);
+    const float x = mix(a.guide[0], b.guide[0]), y = mix(a.guide[1], b.guide[1]);
+    const float there = x + (at - static_cast<float>(i)) * (y - x);
+    return std::clamp(static_cast<int>(there * (1 / fraction)), 0, last);
   }
 
-  const float *value_a_ = nullptr, *value_b_ = nullptr, *cdf_a_ = nullptr,
-              *cdf_b_ = nullptr;
-  const float *block_a_ = nullptr, *block_b_ = nullptr;
-  float weight_ = 0;
-  int cells_ = 0;
+  const LinearRows* rows_;
+  int row_, next_;
+  float weight_;
 };
 
-inline LinearRows::Blend LinearRows::blend(int row, int stride, float weight) const {
-  assert(0 <= row && row < rows_ && 0 <= row + stride && row + stride < rows_);
-  const auto a = static_cast<size_t>(row), b = static_cast<size_t>(row + stride);
-  Blend blend;
-  blend.value_a_ = values_.data() + a * nodes_;
-  blend.value_b_ = values_.data() + b * nodes_;
-  blend.cdf_a_ = cdf_.data() + a * nodes_;
-  blend.cdf_b_ = cdf_.data() + b * nodes_;
-  blend.block_a_ = blocks_.data() + a * block;
-  blend.block_b_ = blocks_.data() + b * block;
-  blend.weight_ = weight;
-  blend.cells_ = static_cast<int>(nodes_) - 1;
-  return blend;
+inline LinearRows::Blend LinearRows::blend(int row, float weight) const {
+  assert(0 <= row && row + 1 < rows_);
+  return {this, row, row + 1, weight};
 }
 
-inline LinearRows::Blend LinearRows::row(int i) const { return blend(i, 0, 0); }
+inline LinearRows::Blend LinearRows::row(int i) const { return {this, i, i, 0}; }
 
 }  // namespace tyndall

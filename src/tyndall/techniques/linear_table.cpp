@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tyndall/techniques/linear_table.h"
 
-#include <algorithm>
 #include <cassert>
-#include <cmath>
 
 namespace tyndall {
 namespace {
@@ -12,58 +10,53 @@ namespace {
 float line_integral(float a, float b, float x) { return x * (a + 0.5f * b * x); }
 
 /// The x up to which line_integral() is `mass`, in the form that does not cancel.
-float invert_line_integral(float a, float b, float mass) {
-  const float root = std::sqrt(std::max(a * a + 2 * b * mass, 0.0f));
+template <typename T>
+T invert_line_integral(T a, T b, T mass) {
+  const T root = std::sqrt(std::max(a * a + 2 * b * mass, T{0}));
   return 2 * mass / (a + root);
 }
 
 }  // namespace
 
 LinearTable::LinearTable(std::span<const float> values, float x_min, float x_max)
-    : values_(values.begin(), values.end()),
-      integral_(values.size()),
+    : nodes_(values.size()),
       x_min_(x_min),
       x_max_(x_max),
       cells_(static_cast<int>(values.size()) - 1),
-      cells_per_x_(static_cast<float>(cells_) / (x_max - x_min)) {
-  assert(cells_ >= 1 && x_min < x_max);
-  for (size_t i = 1; i < values.size(); ++i)
-    integral_[i] = integral_[i - 1] + 0.5 * (double(values[i - 1]) + double(values[i]));
-  const auto cells = static_cast<size_t>(cells_);
-  guides_per_mass_ = cells_ / integral_.back();
-  guide_.resize(cells + 1, static_cast<uint16_t>(cells_ - 1));
-  for (size_t i = 0, cell = 0; i <= cells; ++i) {
-    while (cell + 1 < cells && integral_[cell + 1] * guides_per_mass_ <= double(i)) ++cell;
-    guide_[i] = static_cast<uint16_t>(cell);
+      cells_per_x_(static_cast<float>(cells_) / (x_max - x_min)),
+      x_per_cell_((x_max - x_min) / static_cast<float>(cells_)) {
+  assert(cells_ >= 1 && cells_ < 2048 && x_min < x_max);
+  for (size_t i = 0; i < values.size(); ++i) {
+    nodes_[i].value = values[i];
+    if (i > 0)
+      nodes_[i].integral =
+          nodes_[i - 1].integral + 0.5 * (double(values[i - 1]) + double(values[i]));
+  }
+  const double share = nodes_.back().integral / cells_;
+  shares_per_integral_ = static_cast<float>(1 / share);
+  size_t cell = 0;
+  for (size_t i = 0; i < nodes_.size(); ++i) {
+    const double integral = static_cast<double>(i) * share;
+    while (cell + 2 < nodes_.size() && nodes_[cell + 1].integral <= integral) ++cell;
+    const double a = values[cell], b = values[cell + 1] - a;
+    const double inside = invert_line_integral(a, b, integral - nodes_[cell].integral);
+    const double position = static_cast<double>(cell) + std::clamp(inside, 0.0, 1.0);
+    nodes_[i].guide[0] = static_cast<uint16_t>(position * double(fraction));
+    if (i > 0) nodes_[i - 1].guide[1] = nodes_[i].guide[0];
   }
 }
 
 /// The cell in which the integral from node 0 has the given value.
 int LinearTable::cell_at(double integral) const {
-  const double position = std::clamp(integral * guides_per_mass_, 0.0, cells_ - 1.0);
-  const int guide = static_cast<int>(position);
-  int low = guide_[static_cast<size_t>(guide)];
-  int count = guide_[static_cast<size_t>(guide) + 1] - low;
-  while (count > 0) {
-    const int half = (count + 1) / 2;
-    const bool is_below = integral_[static_cast<size_t>(low + half)] <= integral;
-    low += is_below ? half : 0;
-    count = is_below ? count - half : half - 1;
-  }
-  return low;
-}
-
-LinearTable::Cursor LinearTable::cursor(float x, bool is_reversed) const {
-  const float position = (is_reversed ? x_max_ - x : x - x_min_) * cells_per_x_;
-  return {this, position == position ? position : 0, is_reversed};
-}
-
-float LinearTable::Cursor::value(float delta) const {
-  const auto cells = static_cast<float>(table_->cells_);
-  const float at = position_ + delta * table_->cells_per_x_;
-  const float x = at > 0 ? std::min(at, cells) : 0;  // also takes NaN as zero
-  const int i = std::min(static_cast<int>(x), table_->cells_ - 1);
-  return std::lerp(node(i), node(i + 1), x - static_cast<float>(i));
+  const float at = static_cast<float>(integral) * shares_per_integral_;
+  const int share = std::clamp(static_cast<int>(at), 0, cells_ - 1);
+  const auto [begin, end] = nodes_[static_cast<size_t>(share)].guide;
+  const auto x = static_cast<float>(begin), y = static_cast<float>(end);
+  const float there = x + (at - static_cast<float>(share)) * (y - x);
+  int i = std::clamp(static_cast<int>(there * (1 / fraction)), 0, cells_ - 1);
+  while (i + 1 < cells_ && nodes_[static_cast<size_t>(i) + 1].integral <= integral) ++i;
+  while (i > 0 && nodes_[static_cast<size_t>(i)].integral > integral) --i;
+  return i;
 }
 
 float LinearTable::Cursor::integral(float delta) const {
@@ -95,7 +88,7 @@ float LinearTable::Cursor::integral(float delta) const {
     }
   }
   mass += rest > 0 ? rest * node(cells) : 0;
-  return mass / table_->cells_per_x_;
+  return mass * table_->x_per_cell_;
 }
 
 float LinearTable::Cursor::invert(float mass) const {
@@ -109,36 +102,33 @@ float LinearTable::Cursor::invert(float mass) const {
     way = -x;
     x = 0;
   }
-  if (x < static_cast<float>(cells)) {
-    const int i = static_cast<int>(x);
-    const float slope = node(i + 1) - node(i);
-    const float start = node(i) + slope * (x - static_cast<float>(i));
-    const float room = static_cast<float>(i + 1) - x;
-    const float first = line_integral(start, slope, room);
-    if (rest <= first)
-      return (way + std::min(invert_line_integral(start, slope, rest), room)) /
-             table_->cells_per_x_;
-    // In the next cell the sums, which may be large, are still left alone.
-    if (i + 1 < cells) {
-      const float next_slope = node(i + 2) - node(i + 1);
-      if (rest - first <= line_integral(node(i + 1), next_slope, 1))
-        return (way + room + invert_line_integral(node(i + 1), next_slope, rest - first)) /
-               table_->cells_per_x_;
-    }
-    const double target = sum(i + 1) + (rest - first);
-    const int cell = table_->cell_at(step_ * target);
-    const int j = std::max(step_ > 0 ? cell : cells - 1 - cell, i + 1);
-    way += room + static_cast<float>(j - i - 1);
-    rest = static_cast<float>(target - sum(j));
-    const float b = j < cells ? node(j + 1) - node(j) : 0;
-    const float within = invert_line_integral(node(j), b, std::max(rest, 0.0f));
-    if (within <= 1) return (way + within) / table_->cells_per_x_;
-    // Beyond the last node, or by rounding beyond the cell.
-    if (j + 1 < cells) return (way + 1) / table_->cells_per_x_;
-    way += static_cast<float>(cells - j);
-    rest = static_cast<float>(target - sum(cells));
+  if (!(x < static_cast<float>(cells)))
+    return (way + rest / node(cells)) * table_->x_per_cell_;
+  const int i = static_cast<int>(x);
+  const float slope = node(i + 1) - node(i);
+  const float start = node(i) + slope * (x - static_cast<float>(i));
+  const float room = static_cast<float>(i + 1) - x;
+  const float first = line_integral(start, slope, room);
+  if (rest > first) return invert_far(i + 1, way + room, rest - first);
+  return (way + std::min(invert_line_integral(start, slope, rest), room)) *
+         table_->x_per_cell_;
+}
+
+/// From node i, which `way` leads to, on until the integral has grown by `rest`.
+float LinearTable::Cursor::invert_far(int i, float way, float rest) const {
+  const int cells = table_->cells_;
+  const double target = sum(i) + double{rest};
+  if (target >= sum(cells)) {
+    const auto beyond = static_cast<float>(target - sum(cells));
+    return (way + static_cast<float>(cells - i) + beyond / node(cells)) *
+           table_->x_per_cell_;
   }
-  return (way + std::max(rest, 0.0f) / node(cells)) / table_->cells_per_x_;
+  const int cell = table_->cell_at(double{sign_} * target);
+  const int j = std::max(step_ > 0 ? cell : cells - 1 - cell, i);
+  // Next to node i the sums, which may be large, are left alone.
+  const float inside = j == i ? rest : std::max(static_cast<float>(target - sum(j)), 0.0f);
+  const float part = invert_line_integral(node(j), node(j + 1) - node(j), inside);
+  return (way + static_cast<float>(j - i) + std::min(part, 1.0f)) * table_->x_per_cell_;
 }
 
 }  // namespace tyndall

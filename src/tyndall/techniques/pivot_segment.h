@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tyndall/geometry/ray.h"
+#include "tyndall/math/elementary.h"
 #include "tyndall/math/scalar.h"
 
 namespace tyndall {
@@ -29,18 +30,14 @@ class PivotSegment {
     const double cx = y * dz - z * dy, cy = z * dx - x * dz, cz = x * dy - y * dx;
     const double h2 = cx * cx + cy * cy + cz * cz;
     const double s_min = t_min - foot, s_max = t_max - foot;
-    is_forward_ = std::abs(s_min) <= std::abs(s_max);
-    sign_ = is_forward_ ? 1.0f : -1.0f;
-    const double s = is_forward_ ? s_min : -s_max;
+    sign_ = std::copysign(1.0f, static_cast<float>(s_min + s_max));
+    const double s = std::max(s_min, -s_max);
     const double r = std::sqrt(h2 + s * s);
     h_ = static_cast<float>(std::sqrt(h2));
     s_near_ = static_cast<float>(s);
     r_near_ = static_cast<float>(r);
-    t_near_ = is_forward_ ? t_min : t_max;
+    t_near_ = by_sign(sign_, t_min, t_max);
     length_ = t_max - t_min;
-    const double other = r + std::abs(s);
-    plus_near_ = static_cast<float>(s > 0 ? other : h2 / other);
-    minus_near_ = static_cast<float>(s > 0 ? h2 / other : other);
   }
 
   /// False if the stretch is empty, not a number, or runs through the pivot, where
@@ -57,14 +54,16 @@ class PivotSegment {
   float t_min() const { return t_min_; }
   float t_max() const { return t_max_; }
   /// The near end is t_min, and offsets grow with t. Else it is t_max, and they fall.
-  bool is_forward() const { return is_forward_; }
+  bool is_forward() const { return sign_ > 0; }
   float sign() const { return sign_; }  ///< 1 if offsets grow with t, else -1
   float t_near() const { return t_near_; }
 
-  float plus_near() const { return plus_near_; }  ///< r + s at the near end, not cancelled
-  float minus_near() const {
-    return minus_near_;
-  }  ///< r - s at the near end, not cancelled
+  /// r + s and r - s of a point, not cancelled. Their product is h^2.
+  float plus(float s, float r) const {
+    const float sum = r + magnitude(s);
+    return by_sign(s, sum, h_ * (h_ / sum));
+  }
+  float minus(float s, float r) const { return plus(-s, r); }
 
   bool contains(float t) const { return t >= t_min_ && t <= t_max_; }
   float offset(float t) const { return sign_ * (t - t_near_); }
@@ -77,18 +76,11 @@ class PivotSegment {
   float r(float s) const { return std::sqrt(h_ * h_ + s * s); }
 
   /// A uniform number counted from the near end, and back.
-  float from_near(float u) const { return is_forward_ ? u : 1 - u; }
-
-  /// The offset of a point where r + s is (1 + x) times that of the near end: from
-  /// s = ((r + s) - h^2 / (r + s)) / 2, arranged as a sum of positive terms.
-  float offset_of_ratio(float x) const {
-    return 0.5f * x * (plus_near_ + minus_near_ / (1 + x));
-  }
+  float from_near(float u) const { return by_sign(sign_, u, 1 - u); }
 
  private:
   float t_min_, t_max_, t_near_, length_, sign_;
-  float h_, s_near_, r_near_, plus_near_, minus_near_;
-  bool is_forward_;
+  float h_, s_near_, r_near_;
 };
 
 }  // namespace tyndall

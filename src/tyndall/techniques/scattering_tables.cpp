@@ -5,7 +5,6 @@
 #include <array>
 #include <cassert>
 #include <cmath>
-#include <span>
 #include <vector>
 
 #include "tyndall/math/scalar.h"
@@ -15,8 +14,8 @@ namespace {
 
 constexpr int arc_cells = 1024;
 constexpr int fluence_cells = 1024;
-constexpr int azimuth_rows = 33;
-constexpr int azimuth_cells = 64;
+constexpr int azimuth_rows = ScatteringTables::azimuth_rows;
+constexpr int azimuth_cells = ScatteringTables::azimuth_cells;
 
 /// The complete elliptic integral of the second kind of parameter m = 1 - m1, by the
 /// arithmetic-geometric mean [AS64, 17.6].
@@ -129,60 +128,47 @@ LinearTable make_fluence(const PolarIntegrand& f, double g, double k) {
   return {values, static_cast<float>(-range), static_cast<float>(range)};
 }
 
-void normalize_sum(std::span<float> values, int cells) {
-  double mass = 0;
-  for (size_t first = 0; first < values.size(); first += static_cast<size_t>(cells) + 1)
-    for (size_t i = first; i < first + static_cast<size_t>(cells); ++i)
-      mass += 0.5 * (double(values[i]) + double(values[i + 1])) / cells;
-  for (float& value : values) value = static_cast<float>(value / mass);
-}
-
 LinearRows make_theta(const PolarIntegrand& f, double k) {
   constexpr int cells = ScatteringTables::theta_cells, rows = ScatteringTables::alpha_rows;
   std::vector<float> values;
   for (int row = 0; row < rows; ++row) {
     const double a = static_cast<double>(row) / (rows - 1);
     const HalfAngle alpha = HalfAngle::from_y(a, k);
-    const size_t first = values.size();
-    for (const bool is_above : {false, true}) {
-      const ThetaWarp warp{static_cast<float>(a), is_above};
+    for (const float side : {-1.0f, 1.0f}) {
+      const ThetaWarp warp(static_cast<float>(a), side);
       for (int i = 0; i <= cells; ++i) {
         const float z = static_cast<float>(i) / cells;
-        const double value = warp.width() > 0 ? f(alpha, warp.y(z)) * warp.slope(z) : 0;
+        const double value = warp.width > 0 ? f(alpha, warp.y(z)) * warp.slope(z) : 0;
         values.push_back(static_cast<float>(value));
       }
     }
-    normalize_sum(std::span(values).subspan(first), cells);
   }
-  return {values, 2 * rows};
+  return {values, rows, 2};
 }
 
 LinearRows make_theta_of_any_direction(const PolarIntegrand& f) {
   constexpr int cells = ScatteringTables::theta_cells;
   std::vector<float> values;
-  const ThetaWarp warp{0, true};
+  const ThetaWarp warp(0, 1);
   for (int i = 0; i <= cells; ++i) {
     const float z = static_cast<float>(i) / cells;
     values.push_back(static_cast<float>(f(warp.y(z)) * warp.slope(z)));
   }
-  normalize_sum(values, cells);
-  return {values, 1};
+  return {values, 1, 1};
 }
 
 LinearRows make_azimuth() {
   std::vector<float> values;
   for (int row = 0; row < azimuth_rows; ++row) {
     const double e = sqr(static_cast<double>(row) / (azimuth_rows - 1));
-    const size_t first = values.size();
     for (int i = 0; i <= azimuth_cells; ++i) {
       const double eta = static_cast<double>(i) / azimuth_cells;
       const double numerator = std::sqrt(sqr(1 - eta) + sqr(e * eta));
       values.push_back(
           static_cast<float>(numerator / std::pow(sqr(1 - eta) + sqr(eta), 1.5)));
     }
-    normalize_sum(std::span(values).subspan(first), azimuth_cells);
   }
-  return {values, azimuth_rows};
+  return {values, azimuth_rows, 1};
 }
 
 const LinearRows& azimuth_table() {
@@ -193,7 +179,7 @@ const LinearRows& azimuth_table() {
 }  // namespace
 
 float ThetaWarp::z(float y) const {
-  const float q = (is_above ? y - a : a - y) / width();
+  const float q = side * (y - a) / width;
   const float root = std::sqrt(sqr(linear_part) + 4 * (1 - linear_part) * q);
   return std::min(2 * q / (linear_part + root), 1.0f);
 }
@@ -201,6 +187,7 @@ float ThetaWarp::z(float y) const {
 ScatteringTables::ScatteringTables(float g)
     : g_(g),
       k_(std::sqrt((1 + g) / (1 - g))),
+      inverse_k_(1 / k_),
       k_theta_(g < 0 ? 1 : std::sqrt(k_)),
       azimuth_(&azimuth_table()) {
   assert(-1 < g && g < 1);

@@ -10,7 +10,7 @@ namespace tyndall {
 
 /// What the joint sampling of single and double scattering knows about a phase function:
 /// tables for the Henyey-Greenstein phase function of one asymmetry, shared by all rays.
-/// Immutable; build one per medium (a few ten milliseconds; about 33 k floats). Techniques
+/// Immutable; build one per medium (a few ten milliseconds; about 58 k floats). Techniques
 /// keep a pointer to it. At g = 0 there are no tables, and the techniques use closed forms
 /// [Georgiev13].
 ///
@@ -26,6 +26,7 @@ class ScatteringTables {
   float g() const { return g_; }
   bool is_isotropic() const { return g_ == 0; }
   float k() const { return k_; }  ///< of arc(): sqrt((1 + g) / (1 - g))
+  float inverse_k() const { return inverse_k_; }
   /// Of theta(): less than k(), to resolve the neighbourhood of pi as well, where the light
   /// scattered once along a direction vanishes; one if g < 0.
   float k_theta() const { return k_theta_; }
@@ -35,12 +36,12 @@ class ScatteringTables {
   /// F(alpha), the twice scattered light from distance one at angle alpha, over
   /// log(tan(alpha / 2)); up to a factor.
   const LinearTable& fluence() const { return fluence_; }
-  /// The polar angle theta of double scattering, given alpha: rows 2i and 2i + 1 for the
-  /// i-th of equidistant y(alpha), below and above theta = alpha; see ThetaWarp. Each pair
-  /// has mass one.
+  /// The polar angle theta of double scattering, given alpha: row i for the i-th of
+  /// equidistant y(alpha), its pieces below and above theta = alpha; see ThetaWarp. Each
+  /// row has mass one.
   const LinearRows& theta() const { return theta_; }
-  /// The polar angle if light arrives at the first vertex from everywhere alike: the upper
-  /// half for alpha = 0. Mass one.
+  /// The polar angle if light arrives at the first vertex from everywhere alike: one row
+  /// and piece, that above alpha = 0. Mass one.
   const LinearRows& theta_of_any_direction() const { return theta_of_any_direction_; }
   /// The azimuth phi of double scattering, the same for all phase functions: the density
   /// (1 - k cos phi)^(-3/2), k = (1 - e^2) / (1 + e^2), over
@@ -54,34 +55,36 @@ class ScatteringTables {
   }
 
   static constexpr int alpha_rows = 96;   ///< values of alpha in theta()
-  static constexpr int theta_cells = 64;  ///< per half of theta()
+  static constexpr int theta_cells = 64;  ///< per piece of theta()
+  static constexpr int azimuth_rows = 33, azimuth_cells = 64;  ///< of azimuth()
 
  private:
-  float g_, k_, k_theta_;
+  float g_, k_, inverse_k_, k_theta_;
   LinearTable arc_, fluence_;
   LinearRows theta_, theta_of_any_direction_;
   const LinearRows* azimuth_;  // shared by all
 };
 
-/// Where a half of a theta row has its nodes: z in [0, 1] from theta = alpha (z = 0)
+/// Where a piece of a theta row has its nodes: z in [0, 1] from theta = alpha (z = 0)
 /// outwards, fine where the phase function of the first vertex has its peak. `a` is
 /// y(alpha).
 struct ThetaWarp {
   float a;
-  bool is_above;  ///< theta > alpha
+  float side;   ///< 1 if theta > alpha, else -1
+  float width;  ///< of the piece in y
+
+  ThetaWarp(float a, float side) : a(a), side(side), width(by_sign(side, 1 - a, a)) {}
 
   static constexpr float linear_part = 0.05f;
 
-  float width() const { return is_above ? 1 - a : a; }
   /// y(theta) at z.
   float y(float z) const {
-    const float q = z * (linear_part + (1 - linear_part) * z);
-    return is_above ? a + (1 - a) * q : a * (1 - q);
+    return a + side * width * (z * (linear_part + (1 - linear_part) * z));
   }
   /// z at y(theta), for a positive width.
   float z(float y) const;
   /// |dy / dz|
-  float slope(float z) const { return width() * (linear_part + 2 * (1 - linear_part) * z); }
+  float slope(float z) const { return width * (linear_part + 2 * (1 - linear_part) * z); }
 };
 
 }  // namespace tyndall

@@ -47,11 +47,10 @@ class SingleScatteringDistance {
     const float offset = segment_.offset(t), s = segment_.s(offset);
     if (!is_tabulated_)
       return density_or_zero(1 / (integral_ * (sqr(segment_.h()) + sqr(s))));
-    const float r = segment_.r(s), c = inverse_tangent(s, r);
-    const float inverse = 1 / (k_ + c);
-    const float slope = k_ * inverse * (c * inverse);  // r dy / dt
-    return density_or_zero(arc_.value(way(offset, r, c * inverse, inverse)) * slope /
-                           (r * integral_));
+    const float r = segment_.r(s);
+    const Angle angle = this->angle(s, r);
+    const float slope = k_ * angle.tangent * angle.rest;  // r dy / dt
+    return density_or_zero(arc_.value(way(offset, r, angle)) * slope / (r * integral_));
   }
 
   /// The u that sample() maps to t, in [0, 1]; zero if the technique is empty.
@@ -64,52 +63,55 @@ class SingleScatteringDistance {
   }
 
  private:
-  // With c = 1 / tan(alpha / 2), alpha counted in the direction of s, y(alpha) = k / (k +
-  // c).
+  /// y(alpha) = k tangent and 1 - y = rest, alpha counted in the direction of s.
+  struct Angle {
+    float tangent, rest;
+  };
 
   void tabulate(const ScatteringTables& tables) {
-    k_ = segment_.is_forward() ? tables.k() : 1 / tables.k();
-    c_near_ = inverse_tangent(segment_.s_near(), segment_.r_near());
-    const float inverse = 1 / (k_ + c_near_);
-    rest_near_ = c_near_ * inverse;
-    way_scale_ = k_ * inverse;
-    arc_ = tables.arc().cursor(segment_.is_forward() ? way_scale_ : rest_near_,
-                               !segment_.is_forward());
-    const float integral = density_or_zero(arc_.integral(way(segment_.length())));
-    is_tabulated_ = integral > 0 && c_near_ < infinity;
-    integral_ = is_tabulated_ ? integral : 0;
+    const float sign = segment_.sign();
+    k_ = by_sign(sign, tables.k(), tables.inverse_k());
+    near_ = angle(segment_.s_near(), segment_.r_near());
+    arc_ = tables.arc().cursor(by_sign(sign, k_ * near_.tangent, near_.rest), sign);
+    integral_ = density_or_zero(arc_.integral(way(segment_.length())));
+    is_tabulated_ = integral_ > 0 && near_.tangent > 0;
+    if (!is_tabulated_) integral_ = 0;
   }
 
-  float inverse_tangent(float s, float r) const {
-    const float h = segment_.h(), sum = r + std::abs(s);
-    return (s > 0 ? h : sum) / (s > 0 ? sum : h);
+  /// From tan(alpha / 2) = h / (r - s).
+  Angle angle(float s, float r) const {
+    const float h = segment_.h(), sum = r + magnitude(s);
+    const float tangent = by_sign(s, sum, h), rest = by_sign(s, h, sum);
+    const float scale = 1 / (k_ * tangent + rest);
+    return {tangent * scale, rest * scale};
   }
 
   /// y(alpha) at an offset minus y at the near end; no difference is taken.
   float way(float offset) const {
-    if (!(offset < infinity)) return rest_near_;
-    const float s = segment_.s(offset), r = segment_.r(s), c = inverse_tangent(s, r);
-    const float inverse = 1 / (k_ + c);
-    return way(offset, r, c * inverse, inverse);
+    if (!(offset < infinity)) return near_.rest;
+    const float s = segment_.s(offset), r = segment_.r(s);
+    return way(offset, r, angle(s, r));
   }
-  float way(float offset, float r, float rest, float inverse) const {
-    return way_scale_ * offset * (rest + c_near_ * inverse) / (r + segment_.r_near());
+  float way(float offset, float r, const Angle& angle) const {
+    return k_ * (offset / (r + segment_.r_near())) *
+           (angle.rest * near_.tangent + near_.rest * angle.tangent);
   }
 
   /// The offset up to which the integral of the phase function over alpha is `part`.
   float arc_offset(float part) const {
-    const float way = arc_.invert(part);
-    const float rest = rest_near_ - way;
+    const float way = arc_.invert(part), rest = near_.rest - way;
     if (!(rest > 0)) return segment_.length();
-    return segment_.offset_of_ratio(way / (way_scale_ * rest));
+    // s = ((r + s) - (r - s)) / 2, where r + s grows by the factor 1 + way / stayed.
+    const float stayed = k_ * near_.tangent * rest;
+    const float s = segment_.s_near(), r = segment_.r_near();
+    return 0.5f * way *
+           (segment_.plus(s, r) / stayed + segment_.minus(s, r) / (stayed + way));
   }
 
   PivotSegment segment_;
   LinearTable::Cursor arc_;
   float k_ = 1;  // of the angle counted in the direction of s
-  float c_near_ = 0;
-  float rest_near_ = 0;  // 1 - y at the near end
-  float way_scale_ = 0;  // y at the near end
+  Angle near_{};
   float integral_ = 0;
   bool is_tabulated_ = false;
 };
