@@ -70,6 +70,21 @@ TEST(BinnedDistance, SamplesFollowTheirPdf) {
   }
 }
 
+TEST(BinnedDistance, WithFewerBinsIsTheSameDensity) {
+  auto few = DistanceWeights<8>::ones();
+  for (size_t i = 0; i < 8; ++i) few.values[i] = i % 3 == 0 ? 0.1f : static_cast<float>(i);
+  const auto technique = Binned::with_bins_of(base(beside), few, 0.1f);
+  const Binned shared(base(beside), few, 0.1f);
+  for (float u = 0.003f; u < 1; u += 0.0071f) {
+    const auto sample = technique.sample(u);
+    EXPECT_NEAR(sample->t, shared.sample(u)->t, 2e-5);
+    EXPECT_NEAR(technique.pdf_t(sample->t) / sample->pdf_t, 1, 1e-5);
+    EXPECT_NEAR(technique.invert(sample->t), u, 2e-6);
+    // A rounding of one against the narrowest bin, 0.1 / 32 wide.
+    EXPECT_NEAR(technique.pdf_t(5 * u) / shared.pdf_t(5 * u), 1, 4e-5);
+  }
+}
+
 TEST(BinnedDistance, IsTheProductOfBaseAndWeights) {
   constexpr float floor = 0.1f;
   const Binned technique(base(beside), stripes(), floor);

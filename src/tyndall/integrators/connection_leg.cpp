@@ -56,17 +56,21 @@ ConnectionContext::ConnectionContext(const Scene& scene, const ConnectionSetting
     filling_sigma_t_ = luminance(filling->at({}).sigma_t());
   for (const Medium& medium : scene.description().media) {
     const float g = medium.phase().mean_cosine();
-    std::shared_ptr<const ScatteringTables>& tables = by_mean_cosine_[g];
-    if (!tables) tables = std::make_shared<const ScatteringTables>(g);
-    tables_[&medium] = tables;
+    std::unique_ptr<const ScatteringTables>& tables = by_mean_cosine_[g];
+    if (!tables) tables = std::make_unique<const ScatteringTables>(g);
+    tables_.emplace_back(&medium, tables.get());
   }
+  std::sort(tables_.begin(), tables_.end());
 }
 
 const ScatteringTables& ConnectionContext::tables(const Medium& medium) const {
-  const auto found = tables_.find(&medium);
+  const auto found =
+      std::lower_bound(tables_.begin(), tables_.end(), &medium,
+                       [](const auto& entry, const Medium* m) { return entry.first < m; });
   // Where media overlap, the tables of one of them.
-  return found != tables_.end() ? *found->second
-                                : *by_mean_cosine_.at(medium.phase().mean_cosine());
+  return found != tables_.end() && found->first == &medium
+             ? *found->second
+             : *by_mean_cosine_.at(medium.phase().mean_cosine());
 }
 
 std::optional<Vec3> Pivots::operator()(size_t light) const {
@@ -152,14 +156,14 @@ std::optional<EquiangularSampling> ConnectionLeg::useful_base(size_t light) cons
 TYNDALL_VECTOR_CLONES
 ConnectionLeg::Single ConnectionLeg::bin_single(size_t light,
                                                 const EquiangularSampling& base) const {
-  DistanceWeights<32> factors = weights(base.taps<32>(), true);
+  const DistanceTaps<32> few = base.taps<32>();
+  DistanceWeights<32> factors = weights(few, true);
   const Light& the_light = context_->scene().lights()[light];
   if (const auto* spot = std::get_if<SpotLight>(&the_light.variant()))
-    multiply_cone(*spot, ray_, base.taps<32>(), factors);
-  if (!context_->visibility()) return Single(base, factors, floor_share);
+    multiply_cone(*spot, ray_, few, factors);
+  if (!context_->visibility()) return Single::with_bins_of(base, factors, floor_share);
   if (!is_homogeneous())
-    context_->visibility()->multiply_transmittance(light, ray_, base.taps<32>().t,
-                                                   factors.values);
+    context_->visibility()->multiply_transmittance(light, ray_, few.t, factors.values);
   // What varies fast is looked at more often than what varies slowly.
   constexpr int taps = 128;
   DistanceWeights<64> visible = factors.spread<64>();

@@ -5,6 +5,8 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "tyndall/integrators/collision_distance.h"
 #include "tyndall/integrators/connection_settings.h"
@@ -67,8 +69,9 @@ class ConnectionContext {
   float filling_sigma_t_ = 0;
   std::optional<LitSurfaceSampling> lit_;
   std::unique_ptr<DirectionGuiding> guiding_;
-  std::map<const Medium*, std::shared_ptr<const ScatteringTables>> tables_;
-  std::map<float, std::shared_ptr<const ScatteringTables>> by_mean_cosine_;
+  // Sorted: looked up for every connection, and seldom in the processor's caches.
+  std::vector<std::pair<const Medium*, const ScatteringTables*>> tables_;
+  std::map<float, std::unique_ptr<const ScatteringTables>> by_mean_cosine_;
 };
 
 /// One point of each light, fixed for a path: what its techniques aim at. Techniques that

@@ -63,7 +63,7 @@ std::optional<Vec3> DualDirection::sample_one(Vec2 u) const {
     return Vec2{std::min(u.x / guide_->share(technique), one_minus_epsilon), u.y};
   };
   if (u.x < guide_->share(DirectionTechnique::mixture)) {
-    const auto s = mixture_.sample(rest(DirectionTechnique::mixture));
+    const auto s = mixture_->sample(rest(DirectionTechnique::mixture));
     if (!s) return std::nullopt;
     return square_->direction(s->p).w;
   }
@@ -89,7 +89,7 @@ DirectionShares DualDirection::densities(Vec3 w) const {
   const float joint = joint_.pdf(w), lobe = lobe_.pdf(w);
   if (!guide_) return {0, joint, lobe};
   const SquarePoint q = square_->point(w);
-  return {mixture_.pdf(q.p) * q.density, joint, lobe};
+  return {mixture_->pdf(q.p) * q.density, joint, lobe};
 }
 
 }  // namespace tyndall

@@ -44,7 +44,7 @@ class DualDirection {
   ScatteringLobe lobe_;
   const DirectionGuide* guide_ = nullptr;  // null: joint sampling alone
   std::optional<LightSquare> square_;
-  GaussianMixture mixture_;  // times the lobe
+  std::optional<GaussianMixture> mixture_;  // times the lobe
 };
 
 /// The technique of a render at the vertex `b` in `medium`, for a light aimed at in
