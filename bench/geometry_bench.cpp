@@ -2,6 +2,7 @@
 #include <benchmark/benchmark.h>
 
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "tyndall/geometry/intersector.h"
@@ -110,6 +111,26 @@ void is_occluded(benchmark::State& state) {
   state.SetLabel(names[state.range(0)]);
 }
 
+/// As connections have them: between two points of the air, no two rays alike.
+void shadow_ray(benchmark::State& state) {
+  const Shape s = shape(state.range(0));
+  const Intersector scene = make_scene(s, false);
+  RandomStream random(3);
+  std::vector<std::pair<Ray, float>> rays(4096);
+  for (auto& [ray, t_max] : rays) {
+    const Vec3 from = random_in_cube(random), to = random_in_cube(random);
+    t_max = length(to - from);
+    ray = {from, (to - from) / t_max};
+  }
+  size_t i = 0;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(
+        scene.is_occluded(rays[i].first, rays[i].second, RayMask::all));
+    i = (i + 1) % rays.size();
+  }
+  state.SetLabel(names[state.range(0)]);
+}
+
 void sample_and_pdf(benchmark::State& state) {
   const Shape s = shape(state.range(0));
   RandomStream random(2);
@@ -123,6 +144,7 @@ void sample_and_pdf(benchmark::State& state) {
 
 BENCHMARK(intersect)->ArgsProduct({{0, 1, 2, 3, 4}, {0, 1}});
 BENCHMARK(is_occluded)->ArgsProduct({{0, 1, 2, 3, 4}, {0, 1}});
+BENCHMARK(shadow_ray)->DenseRange(0, 1);
 BENCHMARK(sample_and_pdf)->DenseRange(0, 4);
 
 }  // namespace

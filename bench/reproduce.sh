@@ -11,6 +11,7 @@ mkdir -p "$out"
 docs/figures/techniques.py                                       # docs/figures/*.svg
 bench/readme_pictures.py                                         # docs/figures/hero.jpg, pair.*
 bench/efficiency.py --seconds 10 --seeds 5 --docs docs/efficiency.md
+bench/agreement.py > "$out/agreement.md"                          # docs/efficiency.md
 bench/compare_mitsuba.py --clock cpu --spp 256 --json "$out/mitsuba.json" || [[ $? == 77 ]]
 for layer in sampling geometry media techniques guiding; do      # costs in nanoseconds
   build/release/bench/tyndall_bench_$layer --benchmark_out="$out/$layer.json" \
