@@ -214,5 +214,59 @@ TEST(Watertight, PathsStayInsideClosedShapes) {
   }
 }
 
+/// Rays to visible points of a shape, those that the shape itself hides, and those that it
+/// would hide if rounding were ignored.
+struct Hidden {
+  int rays = 0, hidden = 0, hidden_if_flush = 0;
+};
+
+Hidden look_at(const Shape& shape, Vec3 center) {
+  const Intersector intersector({{{{&shape, false}}}}, {});
+  RandomStream random(5);
+  Hidden count;
+  for (int i = 0; i < 3000; ++i) {
+    const Vec3 n = random_direction(random);
+    const Vec3 p = center + random_direction(random) * 4;
+    const auto sample = sample_direction(shape, p, random.next_2d());
+    if (!sample) continue;
+    const Vec3 end = sample->point.p;
+    const float distance = length(end - p);
+    const Vec3 d = (end - p) / distance;
+    if (dot(sample->point.ng, d) > 0) continue;  // its back
+    const Ray ray{offset_origin(p, n, d), d};
+    const float t = distance * (1 - 1e-4f);
+    ++count.rays;
+    count.hidden += intersector.is_occluded(ray, t - rounded_end(p, end, sample->point.ng),
+                                            RayMask::all);
+    count.hidden_if_flush += intersector.is_occluded(ray, t, RayMask::all);
+  }
+  return count;
+}
+
+TEST(RoundedEnd, LetsNoShapeHideItself) {
+  for (const float away : {0.0f, 1e2f, 1e4f, 1e5f}) {
+    SCOPED_TRACE(away);
+    const Vec3 center{away, -away, away};
+    const Transform t = Transform::translate(center);
+    const Shape shapes[] = {Sphere{t, 1, -1, 1, 2 * pi, false},
+                            Disk{t, 0, 1, 0, 2 * pi, false},
+                            transformed(sphere_mesh({0, 0, 0}, 1, 12, 16), t)};
+    for (const Shape& shape : shapes) {
+      const Hidden count = look_at(shape, center);
+      EXPECT_GT(count.rays, 1000);
+      EXPECT_EQ(count.hidden, 0) << "shape " << &shape - shapes;
+      EXPECT_GE(count.hidden_if_flush, away == 1e5f ? count.rays / 3 : 0);
+    }
+  }
+}
+
+// Where numbers are fine, an end is hardly shorter.
+TEST(RoundedEnd, IsShort) {
+  EXPECT_LT(rounded_end({0, 0, 4}, {0, 0, 0}, {0, 0, 1}), 3e-6f);
+  EXPECT_LT(rounded_end({1e4f, 0, 4}, {1e4f, 0, 0}, {0, 0, 1}), 3e-6f);
+  EXPECT_NEAR(rounded_end({0, 0, 1e4f}, {0, 0, 1e4f + 4}, {0, 0, 1}), 6e-3f, 1e-3f);
+  EXPECT_EQ(rounded_end({4, 0, 0}, {0, 0, 0}, {0, 0, 1}), 4);
+}
+
 }  // namespace
 }  // namespace tyndall

@@ -79,4 +79,10 @@ class Intersector {
 /// double precision.
 Vec3 offset_origin(Vec3 p, Vec3 ng, Vec3 d);
 
+/// How far before the point `end` of a surface with normal `ng` a ray from `p`, or from
+/// offset_origin(p), towards it may already meet the surface, because coordinates are
+/// rounded [scene units]: much in places that are far from the origin. At most the
+/// distance.
+float rounded_end(Vec3 p, Vec3 end, Vec3 ng);
+
 }  // namespace tyndall

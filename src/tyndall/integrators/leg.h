@@ -13,7 +13,7 @@ namespace tyndall {
 inline constexpr float far_distance = 1e30f;
 
 /// Rays between two points stop short of the second by this share of their length, lest
-/// they hit what is there.
+/// they hit what is there, and by rounded_end().
 inline constexpr float shadow_shortening = 1e-4f;
 
 /// The straight way of light from a vertex to the first surface that is not a mere

@@ -54,7 +54,8 @@ std::optional<Path::LitView> Path::look_at(const LitPoint& lit, const Vertex& x)
   const float cos_back = dot(lit.to_previous(), lit.hit.point.ng);
   if (!(cos_view * cos_back > 0)) return std::nullopt;
   const Ray ray = x.spawn(w);
-  const float t_max = distance * (1 - shadow_shortening);
+  const float t_max = distance * (1 - shadow_shortening) -
+                      rounded_end(x.p(), lit.hit.point.p, lit.hit.point.ng);
   if (scene_.is_occluded(ray, t_max)) return std::nullopt;
 
   // The lit point reflects: light reaches it through the medium that it leaves it by.

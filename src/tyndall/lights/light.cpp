@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "tyndall/geometry/intersector.h"
 #include "tyndall/lights/octahedral.h"
 #include "tyndall/sampling/warps.h"
 
@@ -73,7 +74,12 @@ std::optional<LightSample> draw(const AreaLight& light, Vec3 p, Vec2 u) {
   const float distance = length(d);
   if (!(distance > 0)) return std::nullopt;
   const Vec3 wi = d / distance;
-  return if_it_shines({wi, distance, light.Le(s->point, -wi), s->pdf, false});
+  return if_it_shines({.wi = wi,
+                       .distance = distance,
+                       .L = light.Le(s->point, -wi),
+                       .pdf = s->pdf,
+                       .is_delta = false,
+                       .rounded_end = rounded_end(p, s->point.p, s->point.ng)});
 }
 
 std::optional<LightSample> draw(const HiddenAreaLight& light, Vec3 p, Vec2 u) {

@@ -25,6 +25,8 @@ struct LightSample {
                   ///< volume lights, whose radiance is found by tracking along the line
   float pdf;      ///< of wi w.r.t. solid angle [1/sr]; one for point-like lights
   bool is_delta;  ///< no path can hit the light by chance
+  /// Before `distance` already, rounding may make the light hide itself [scene units].
+  float rounded_end = 0;
 };
 
 /// A point on a light, drawn without regard to who looks at it.
