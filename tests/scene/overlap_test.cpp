@@ -193,6 +193,56 @@ TEST(OverlapTest, CameraInsideTwo) {
   }
 }
 
+// What a floor without a medium of its own hides tells nothing, for or against.
+TEST(OverlapTest, PlainSurfacesDoNotVoteAboutTheCamera) {
+  const Surface floor{
+      .shape = Disk{Transform::translate({0, -0.5f, 0}) * Transform::rotate(90, {1, 0, 0}),
+                    0, 4, 0, 2 * pi, false},
+      .material = DiffuseBsdf(Rgb(0.5f))};
+  const Scene in_fog(
+      scene_of(1, {sphere_boundary({0, 0, 0}, 5, 0, no_medium), floor}, {0, 0, 0}));
+  EXPECT_EQ(in_fog.camera_media(), std::vector<int>{0});
+  EXPECT_TRUE(in_fog.remarks().empty());
+  // In two media, of which downward only the boundary of one is in front of the floor.
+  const Scene in_both(
+      scene_of(2,
+               {sphere_boundary({0, 0, 0}, 5, 0, no_medium),
+                box_boundary({-9, -0.4f, -9}, {9, 9, 9}, 1, no_medium), floor},
+               {0, 0, 0}));
+  EXPECT_EQ(in_both.camera_media(), (std::vector<int>{0, 1}));
+  EXPECT_TRUE(in_both.remarks().empty());
+  // Fog without an end that the scene states, and a cloud in front of the camera.
+  SceneDescription endless =
+      scene_of(2, {sphere_boundary({0, 0, 3}, 2.5f, 1, no_medium), floor}, {0, 0, 0});
+  endless.camera_medium = 0;
+  const Scene scene(std::move(endless));
+  EXPECT_EQ(scene.camera_media(), std::vector<int>{0});
+  EXPECT_TRUE(scene.remarks().empty());
+}
+
+// Statements are believed only where boundaries do not know better.
+TEST(OverlapTest, BoundariesDenyTheStatedMediumOfTheCamera) {
+  SceneDescription outside =
+      scene_of(1,
+               {box_boundary({-9, -9, 1}, {9, 9, 9}, 0, no_medium),
+                box_boundary({-9, -9, -9}, {9, 9, -1}, 0, no_medium),
+                box_boundary({-9, 1, -1}, {9, 9, 1}, 0, no_medium),
+                box_boundary({-9, -9, -1}, {9, -1, 1}, 0, no_medium)},
+               {0, 0, 0});
+  outside.camera_medium = 0;
+  EXPECT_EQ(Scene(std::move(outside)).camera_media(), std::vector<int>{});
+}
+
+// Half of the directions say one, half the other: it is where it looks.
+TEST(OverlapTest, CameraOnABoundaryLooksIntoAMedium) {
+  for (const float side : {-1.0f, 1.0f}) {
+    const Scene scene(
+        scene_of(1, {box_boundary({-1, -1, -1}, {1, 1, 1}, 0, no_medium)}, {0, 0, side}));
+    const std::vector<int> inside{0}, outside{};
+    EXPECT_EQ(scene.camera_media(), side < 0 ? inside : outside);
+  }
+}
+
 TEST(BoundaryCheckTest, NamesWhatIsOpenOrInsideOut) {
   const Surface whole = box_boundary({-1, -1, -1}, {1, 1, 1}, 0, no_medium);
   EXPECT_TRUE(check_boundaries(std::vector{whole}).empty());
@@ -222,6 +272,27 @@ TEST(BoundaryCheckTest, NamesWhatIsOpenOrInsideOut) {
       TriangleMesh(mesh.positions(),
                    {mesh.triangles().begin(), mesh.triangles().begin() + 2}, {}, {}, false);
   EXPECT_TRUE(check_boundaries(std::vector{open, rest}).empty());
+  // Spheres, too.
+  Surface ball = sphere_boundary({1, 2, 3}, 2, 0, no_medium);
+  ball.name = "sphere at a.pbrt:7:1";
+  EXPECT_TRUE(check_boundaries(std::vector{ball}).empty());
+  std::get<Sphere>(ball.shape).flip_normals = true;
+  EXPECT_EQ(check_boundaries(std::vector{ball}),
+            std::vector<std::string>{
+                "sphere at a.pbrt:7:1: this boundary is inside out: its medium fills all "
+                "but what it encloses; ReverseOrientation turns it"});
+  EXPECT_TRUE(check_boundaries(std::vector{whole, ball}).size() == 1);
+  Surface around = sphere_boundary({1, 2, 3}, 3, 0, no_medium);  // of a hollow ball
+  EXPECT_TRUE(check_boundaries(std::vector{around, ball}).empty());
+  Surface bowl = sphere_boundary({1, 2, 3}, 2, 0, no_medium);
+  std::get<Sphere>(bowl.shape).z_max = 0;
+  bowl.name = "sphere at a.pbrt:9:1";
+  EXPECT_EQ(
+      check_boundaries(std::vector{bowl}),
+      std::vector<std::string>{
+          "sphere at a.pbrt:9:1: this boundary between media is open (it is a disk or "
+          "a clipped sphere): light that passes the gap takes the medium along"});
+  EXPECT_TRUE(check_boundaries(std::vector{bowl, bowl}).empty());  // who knows
   // A hole in a medium that is all around.
   Surface hole = turned;
   hole.media = {.inside = no_medium, .outside = 0, .is_stated = true};

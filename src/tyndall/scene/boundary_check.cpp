@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <numbers>
+#include <optional>
+#include <string>
 #include <tuple>
 #include <utility>
 
@@ -33,12 +36,34 @@ class Boundary {
     else if (const auto* patches = std::get_if<BilinearMesh>(&surface.shape))
       add_patches(*patches, surface);
     else if (const auto* sphere = std::get_if<Sphere>(&surface.shape);
-             !sphere || !sphere->is_full())
-      is_known_ = false;  // what a disk may close is not looked into
+             sphere && sphere->is_full())
+      add_sphere(*sphere, surface);
+    else
+      pieces_.push_back(&surface);
   }
 
-  // The first shape with a gap, and the number of edges of the gaps; null if closed.
-  std::pair<const Surface*, size_t> gap() {
+  struct Gap {
+    const Surface* surface;
+    std::string what;
+  };
+  // Empty if the boundary is closed, or may be: whether clipped spheres, disks and meshes
+  // with gaps close each other is not looked into.
+  std::optional<Gap> gap() {
+    const auto [mesh, edges] = mesh_gap();
+    if (mesh && pieces_.empty())
+      return Gap{mesh, fmt::format("{} edges have a face on one side only", edges)};
+    if (!mesh && pieces_.size() == 1)
+      return Gap{pieces_[0], "it is a disk or a clipped sphere"};
+    return std::nullopt;
+  }
+
+  // Negative if the inside is all but what the faces enclose. Only if there is no gap.
+  double volume() const { return pieces_.empty() ? volume_ : 0; }
+  const Surface* any() const { return any_; }
+
+ private:
+  // The first mesh with a gap, and the number of edges of the gaps; null if closed.
+  std::pair<const Surface*, size_t> mesh_gap() {
     std::ranges::sort(edges_, {}, &Edge::ends);
     const Surface* first = nullptr;
     size_t count = 0;
@@ -50,14 +75,17 @@ class Boundary {
       ++count;
       if (!first) first = edges_[i].surface;
     }
-    return {is_known_ ? first : nullptr, count};
+    return {first, count};
   }
 
-  // Negative if the inside is all but what the faces enclose. Only if there is no gap.
-  double volume() const { return is_known_ ? volume_ : 0; }
-  const Surface* any() const { return edges_.empty() ? nullptr : edges_.front().surface; }
+  void add_sphere(const Sphere& sphere, const Surface& surface) {
+    const auto r = static_cast<double>(sphere.radius);
+    const double volume = 4 * std::numbers::pi / 3 * r * r * r *
+                          std::abs(Affine(sphere.world_from_sphere).determinant());
+    volume_ += sphere.flip_normals ? -volume : volume;
+    any_ = &surface;
+  }
 
- private:
   void add_triangles(const TriangleMesh& mesh, const Surface& surface) {
     for (uint32_t i = 0; i < mesh.triangles().size(); ++i) {
       const PreciseTriangle t = mesh.triangle(i);
@@ -86,6 +114,7 @@ class Boundary {
 
   template <size_t N>
   void add_face(std::array<Vec3, N> corners, bool is_flipped, const Surface& surface) {
+    any_ = &surface;
     if (is_flipped) std::ranges::reverse(corners);
     std::array<uint32_t, N> indices;
     for (size_t i = 0; i < N; ++i) indices[i] = weld(corners[i]);
@@ -107,8 +136,9 @@ class Boundary {
 
   std::map<std::tuple<float, float, float>, uint32_t> corners_;
   std::vector<Edge> edges_;
+  std::vector<const Surface*> pieces_;  // disks and clipped spheres
   double volume_ = 0;
-  bool is_known_ = true;
+  const Surface* any_ = nullptr;
 };
 
 }  // namespace
@@ -121,12 +151,11 @@ std::vector<std::string> check_boundaries(std::span<const Surface> surfaces) {
       boundaries[{surface.media.inside, surface.media.outside}].add(surface);
   std::vector<std::string> remarks;
   for (auto& [media, boundary] : boundaries) {
-    const auto [open, edges] = boundary.gap();
-    if (open)
-      remarks.push_back(fmt::format(
-          "{}: this boundary between media is open ({} edges have a face on one side "
-          "only): light that passes the gap takes the medium along",
-          open->name, edges));
+    if (const auto gap = boundary.gap())
+      remarks.push_back(
+          fmt::format("{}: this boundary between media is open ({}): light that passes the "
+                      "gap takes the medium along",
+                      gap->surface->name, gap->what));
     else if (boundary.volume() < 0 && media.first != no_medium && media.second == no_medium)
       remarks.push_back(
           fmt::format("{}: this boundary is inside out: its medium fills all but what it "
