@@ -21,9 +21,9 @@ Vec3i voxel_count(const VolumeGridInfo& grid) {
 std::string grid_text(const VolumeGridInfo& grid) {
   const Vec3i n = voxel_count(grid);
   const Vec3 s = grid.voxel_size, a = grid.bounds.min, b = grid.bounds.max;
-  std::string text =
-      fmt::format("  \"{}\": {}{}\n", grid.name, grid.type,
-                  grid.is_scalar ? "" : ", which cannot be a density or a temperature");
+  std::string text = fmt::format(
+      "  \"{}\": {}{}{}\n", grid.name, grid.type, grid.is_level_set ? ", a level set" : "",
+      grid.is_scalar ? "" : ", which cannot be a density or a temperature");
   text += fmt::format("    voxels    {} active in {} x {} x {}\n", grid.active_voxels, n.x,
                       n.y, n.z);
   text += fmt::format("    voxel     {:g} x {:g} x {:g}\n", s.x, s.y, s.z);
@@ -46,6 +46,7 @@ nlohmann::ordered_json grid_json(const VolumeGridInfo& grid) {
   nlohmann::ordered_json json = {{"name", grid.name},
                                  {"type", grid.type},
                                  {"is_scalar", grid.is_scalar},
+                                 {"is_level_set", grid.is_level_set},
                                  {"active_voxels", grid.active_voxels},
                                  {"voxels", triple(voxel_count(grid))},
                                  {"voxel_size", triple(grid.voxel_size)},

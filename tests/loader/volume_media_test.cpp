@@ -177,6 +177,13 @@ TEST_F(LoadVolumeTest, OddDensitiesGetAWarning) {
   EXPECT_EQ(complaint("", "v.vdb"), "the density is zero everywhere: an empty medium");
 }
 
+TEST_F(LoadVolumeTest, LevelSetsGetAWarning) {
+  test::write_nvdb(path(), {test::level_set_of_ball(8, 3)});
+  EXPECT_EQ(complaint(""),
+            "the grid is a level set: the density is one inside its surface, and fades to "
+            "zero there");
+}
+
 TEST_F(LoadVolumeTest, GridsWithoutNumbersAreRefused) {
   test::write_vdb_without_numbers(path("v.vdb"));
   EXPECT_EQ(complaint("\"string gridname\" \"points\"", "v.vdb"),

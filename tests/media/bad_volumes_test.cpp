@@ -95,6 +95,31 @@ TEST_P(BadVolumeTest, NumbersThatAreNoneCountAsZero) {
   }
 }
 
+// A ball of which only a band about its surface is stored: one within, and a slope.
+TEST_P(BadVolumeTest, LevelSetsBecomeDensities) {
+  write({test::level_set_of_ball(20, 3)});
+  const PlacedGrid grid = read();
+  EXPECT_TRUE(grid.is_from_level_set);
+  EXPECT_TRUE(list_volume_grids(path()).at(0).is_level_set);
+  EXPECT_EQ(grid.grid->rejected().negative, 0u);
+  const GridMedium medium = medium_of(grid);
+  for (const float r : {0.0f, 10.0f, 16.0f, 17.0f})
+    EXPECT_NEAR(medium.at({r, 0, 0}).sigma_s.r, 1, 1e-4f) << r;
+  EXPECT_NEAR(medium.at({18, 0, 0}).sigma_s.r, 2.0f / 3, 1e-4f);
+  EXPECT_NEAR(medium.at({0, 0, -19}).sigma_s.r, 1.0f / 3, 1e-4f);
+  for (const float r : {20.0f, 21.0f, 25.0f})
+    EXPECT_EQ(medium.at({0, r, 0}).sigma_s.r, 0) << r;
+}
+
+// The first is read, and nothing is printed.
+TEST_P(BadVolumeTest, NamesMayBeThereTwice) {
+  write({{.voxels = test::filled_box({0, 0, 0}, {9, 9, 9}, 2)},
+         {.voxels = test::filled_box({0, 0, 0}, {9, 9, 9}, 3)}});
+  testing::internal::CaptureStdout();
+  EXPECT_EQ(read().grid->maximum(), 2);
+  EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+}
+
 TEST_P(BadVolumeTest, TruncatedFilesSayHowTheyEnd) {
   write({{.voxels = test::filled_box({0, 0, 0}, {40, 40, 40}, 1)},
          {.name = "temperature", .voxels = test::filled_box({0, 0, 0}, {9, 9, 9}, 1)}});

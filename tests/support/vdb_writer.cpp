@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <openvdb/openvdb.h>
 #include <openvdb/points/PointDataGrid.h>
+#include <openvdb/tools/SignedFloodFill.h>
 
 #include "support/volume_writer.h"
 
@@ -8,15 +9,17 @@ namespace tyndall::test {
 namespace {
 
 openvdb::FloatGrid::Ptr make_grid(const TestGrid& test) {
-  auto grid = openvdb::FloatGrid::create(0.0f);
+  auto grid = openvdb::FloatGrid::create(test.half_width);
   grid->setName(test.name);
-  grid->setGridClass(openvdb::GRID_FOG_VOLUME);
+  const bool is_level_set = test.half_width > 0;
+  grid->setGridClass(is_level_set ? openvdb::GRID_LEVEL_SET : openvdb::GRID_FOG_VOLUME);
   const auto map = openvdb::math::Transform::createLinearTransform(test.voxel_size);
   map->postTranslate({test.origin.x, test.origin.y, test.origin.z});
   grid->setTransform(map);
   auto accessor = grid->getAccessor();
   for (const TestVoxel& v : test.voxels)
     accessor.setValue({v.at.x, v.at.y, v.at.z}, v.value);
+  if (is_level_set) openvdb::tools::signedFloodFill(grid->tree());
   return grid;
 }
 

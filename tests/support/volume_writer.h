@@ -21,10 +21,15 @@ struct TestGrid {
   std::vector<TestVoxel> voxels;
   double voxel_size = 1;
   Vec3 origin{};
+  /// Of a level set, half the width of its band; zero: the numbers are densities.
+  float half_width = 0;
 };
 
 /// The voxels [first, last], all of one value.
 std::vector<TestVoxel> filled_box(Vec3i first, Vec3i last, float value);
+
+/// The level set of a ball about the origin, with a band of this half width [voxels].
+TestGrid level_set_of_ball(float radius, float half_width);
 
 /// Writes a .vdb file; throws if the build has no OpenVDB.
 void write_vdb(const std::filesystem::path& path, const std::vector<TestGrid>& grids);

@@ -48,6 +48,11 @@ std::optional<PlacedGrid> read_density(ParameterSet& parameters, const std::stri
   auto placed = read_or_report(parameters, [&] { return read_volume(path, names); });
   if (!placed) return std::nullopt;
   report_rejected(parameters, *placed, "density");
+  if (placed->is_from_level_set)
+    parameters.warning(
+        "filename",
+        "the grid is a level set: the density is one inside its surface, and "
+        "fades to zero there");
   if (placed->grid->is_empty())
     parameters.warning("filename", "the density is zero everywhere: an empty medium");
   return placed;

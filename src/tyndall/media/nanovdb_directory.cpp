@@ -78,7 +78,7 @@ VolumeGridInfo make_info(const Record& r, uint32_t type) {
 }
 
 NanoVdbEntry read_entry(std::ifstream& file) {
-  constexpr uint32_t point_index = 3, point_data = 4;  // nanovdb::GridClass
+  constexpr uint32_t level_set = 1, point_index = 3, point_data = 4;  // nanovdb::GridClass
   const Record r(file, metadata_size);
   const uint32_t type = r.at<uint32_t>(32), grid_class = r.at<uint32_t>(36);
   NanoVdbEntry entry{.info = make_info(r, type),
@@ -90,6 +90,7 @@ NanoVdbEntry read_entry(std::ifstream& file) {
     entry.info.type = "points";
     entry.info.is_scalar = false;
   }
+  entry.info.is_level_set = grid_class == level_set;
   const uint32_t name_size = r.at<uint32_t>(136);
   if (name_size > longest_name) throw std::runtime_error("its directory is damaged");
   entry.info.name = Record(file, name_size).text();

@@ -164,12 +164,13 @@ template <typename Build>
 struct Block {
   const typename nanovdb::NanoGrid<Build>::TreeType::LeafNodeType* leaf;
   float tile;
+  DensityCode density;
 
   bool is_zero() const { return !leaf && tile == 0; }
   float value(int i) const {
     if (!leaf) return tile;
     const uint32_t n = static_cast<uint32_t>(i);
-    return leaf->isActive(n) ? static_cast<float>(leaf->getValue(n)) : 0;
+    return density(static_cast<float>(leaf->getValue(n)), leaf->isActive(n));
   }
 };
 
@@ -204,17 +205,23 @@ PlacedGrid convert(GridImage& image) {
   if (box.min()[0] > box.max()[0]) return empty_grid();
   const BrickLayout layout = lay_out_bricks({box.min()[0], box.min()[1], box.min()[2]},
                                             {box.max()[0], box.max()[1], box.max()[2]});
+  const auto& root = grid.tree().root();
+  const auto density = grid.isLevelSet()
+                           ? DensityCode::level_set(static_cast<float>(root.background()))
+                           : DensityCode();
   const auto source = [&](Vec3i brick, BrickGrid::Samples samples) {
-    const auto& root = grid.tree().root();
     return fill_brick(layout, brick, samples, [&](Vec3i voxel) {
       const nanovdb::Coord at(voxel.x, voxel.y, voxel.z);
       const auto* leaf = root.probeLeaf(at);
-      const bool has_tile = !leaf && root.isActive(at);
-      return Block<Build>{leaf, has_tile ? static_cast<float>(root.getValue(at)) : 0};
+      const float tile =
+          leaf ? 0 : density(static_cast<float>(root.getValue(at)), root.isActive(at));
+      return Block<Build>{leaf, tile, density};
     });
   };
-  return place_bricks(layout, medium_from_voxel(grid.map()), source,
-                      leaf_reader<Build>(image, layout));
+  PlacedGrid placed = place_bricks(layout, medium_from_voxel(grid.map()), source,
+                                   leaf_reader<Build>(image, layout));
+  placed.is_from_level_set = grid.isLevelSet();
+  return placed;
 }
 
 template <typename Build>

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 #include <openvdb/io/File.h>
+#include <openvdb/io/GridDescriptor.h>
 #include <openvdb/openvdb.h>
 
 #include <algorithm>
@@ -30,6 +31,18 @@ auto with_file(const std::filesystem::path& path, F&& f) {
   } catch (const openvdb::Exception& e) {
     throw std::runtime_error(e.what());
   }
+}
+
+// The first grid called `name`, by the name that sets it apart from others of its name:
+// asked for by a name that is there twice, the library prints to standard output.
+std::string unique_name(openvdb::io::File& file, const std::string& name) {
+  using openvdb::io::GridDescriptor;
+  for (auto it = file.beginName(); it != file.endName(); ++it) {
+    const std::string unique = *it;
+    if (GridDescriptor::stripSuffix(GridDescriptor::stringAsUniqueName(unique)) == name)
+      return unique;
+  }
+  return name;
 }
 
 Vec3i to_vec(const openvdb::Coord& c) { return {c.x(), c.y(), c.z()}; }
@@ -64,7 +77,9 @@ VolumeGridInfo make_name(const openvdb::GridBase& grid) {
       .active_voxels = 0,
       .memory = 0,
       .min = unknown,
-      .max = unknown};
+      .max = unknown,
+      .compression = {},
+      .is_level_set = grid.getGridClass() == openvdb::GRID_LEVEL_SET};
 }
 
 VolumeGridInfo make_info(const openvdb::GridBase& grid) {
@@ -89,12 +104,13 @@ template <typename Leaf>
 struct Block {
   const Leaf* leaf;
   float tile;
+  DensityCode density;
 
   bool is_zero() const { return !leaf && tile == 0; }
   float value(int i) const {
     if (!leaf) return tile;
     const openvdb::Index n = static_cast<openvdb::Index>(i);
-    return leaf->isValueOn(n) ? static_cast<float>(leaf->getValue(n)) : 0;
+    return density(static_cast<float>(leaf->getValue(n)), leaf->isValueOn(n));
   }
 };
 
@@ -131,20 +147,26 @@ PlacedGrid convert(GridType& grid, const std::filesystem::path& path) {
   if (box.empty()) return empty_grid();
   const BrickLayout layout = lay_out_bricks(to_vec(box.min()), to_vec(box.max()));
   const Tree& tree = grid.constTree();
+  const bool is_level_set = grid.getGridClass() == openvdb::GRID_LEVEL_SET;
+  const auto density = is_level_set
+                           ? DensityCode::level_set(static_cast<float>(grid.background()))
+                           : DensityCode();
   const auto source = [&](Vec3i brick, BrickGrid::Samples samples) {
     return fill_brick(layout, brick, samples, [&](Vec3i voxel) {
       const openvdb::Coord at(voxel.x, voxel.y, voxel.z);
       const auto* leaf = tree.probeConstLeaf(at);
-      const bool has_tile = !leaf && tree.isValueOn(at);
-      return Block<typename Tree::LeafNodeType>{
-          leaf, has_tile ? static_cast<float>(tree.getValue(at)) : 0};
+      const float tile =
+          leaf ? 0 : density(static_cast<float>(tree.getValue(at)), tree.isValueOn(at));
+      return Block<typename Tree::LeafNodeType>{leaf, tile, density};
     });
   };
   const auto drop_leaves = [&](int first, int /*last*/) {
     drop_leaves_below(grid.tree(), layout.origin.x + first * BrickGrid::edge);
     release_mapped_pages(path);
   };
-  return place_bricks(layout, medium_from_voxel(grid), source, drop_leaves);
+  PlacedGrid placed = place_bricks(layout, medium_from_voxel(grid), source, drop_leaves);
+  placed.is_from_level_set = is_level_set;
+  return placed;
 }
 
 }  // namespace
@@ -169,7 +191,7 @@ std::vector<VolumeGridInfo> list_openvdb_names(const std::filesystem::path& path
 
 PlacedGrid read_openvdb_grid(const std::filesystem::path& path, const std::string& name) {
   return with_file(path, [&](openvdb::io::File& file) {
-    const openvdb::GridBase::Ptr grid = file.readGrid(name);
+    const openvdb::GridBase::Ptr grid = file.readGrid(unique_name(file, name));
     if (const auto floats = openvdb::gridPtrCast<openvdb::FloatGrid>(grid))
       return convert(*floats, path);
     if (const auto doubles = openvdb::gridPtrCast<openvdb::DoubleGrid>(grid))

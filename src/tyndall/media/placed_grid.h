@@ -14,6 +14,7 @@ struct PlacedGrid {
   std::shared_ptr<const BrickGrid> grid;
   Transform medium_from_grid;  ///< from sample coordinates
   Bounds3 box;  ///< in sample coordinates; zero outside; empty if the grid is
+  bool is_from_level_set = false;  ///< made of distances to a surface
 };
 
 /// Values at the cell centres of `bounds`, trilinear in between and fading into zeros

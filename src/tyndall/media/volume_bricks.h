@@ -12,6 +12,30 @@
 
 namespace tyndall {
 
+/// What a voxel's number means as a density. In a level set it is the distance to a
+/// surface, negative inside: the density there is one, and falls to zero at the surface
+/// within the band of active voxels, as `openvdb::tools::sdfToFogVolume` has it.
+class DensityCode {
+ public:
+  /// Of a grid that holds densities: inactive voxels count as zero.
+  DensityCode() = default;
+  /// Of a level set with a band of this half width [units of its numbers].
+  static DensityCode level_set(float half_width) {
+    DensityCode code;
+    code.densities_per_unit_ = -1 / half_width;
+    return code;
+  }
+
+  bool is_level_set() const { return densities_per_unit_ != 0; }
+  float operator()(float number, bool is_active) const {
+    if (!is_level_set()) return is_active ? number : 0;
+    return std::clamp(number * densities_per_unit_, 0.0f, 1.0f);
+  }
+
+ private:
+  float densities_per_unit_ = 0;
+};
+
 /// Where the bricks of a sparse volume lie: aligned with its blocks of 8^3 voxels, and one
 /// voxel larger than the active ones on all sides, for the interpolant to fade to zero.
 struct BrickLayout {

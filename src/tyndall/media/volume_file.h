@@ -27,6 +27,7 @@ struct VolumeGridInfo {
   uint64_t memory;            ///< uncompressed, as the file stores it [bytes]
   float min, max;             ///< of the active voxels; NaN if not known
   std::string compression{};  ///< in the file: "none", "zip", "blosc"; empty if not known
+  bool is_level_set = false;  ///< its numbers are distances to a surface
 };
 
 /// The grids of a .vdb or .nvdb file, told apart by their contents.
@@ -38,10 +39,10 @@ std::vector<VolumeGridInfo> list_volume_grids(const std::filesystem::path& path)
 std::vector<VolumeGridInfo> list_volume_names(const std::filesystem::path& path);
 
 /// Reads the first grid of the file that has one of `names`, in their order of preference,
-/// or its only grid if that has no name; its medium space is the file's. Inactive voxels
-/// count as zero, and so does what is negative, infinite or not a number: see
-/// BrickGrid::rejected(). Throws std::runtime_error that names the file, and the grids
-/// found if none has the name.
+/// or its only grid if that has no name; its medium space is the file's. Level sets become
+/// densities, see PlacedGrid::is_from_level_set. Inactive voxels count as zero, and so does
+/// what is negative, infinite or not a number: see BrickGrid::rejected(). Throws
+/// std::runtime_error that names the file, and the grids found if none has the name.
 PlacedGrid read_volume(const std::filesystem::path& path,
                        std::span<const std::string_view> names);
 
