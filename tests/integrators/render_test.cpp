@@ -81,6 +81,22 @@ TEST(Render, MultipliesByTheImagingRatio) {
   EXPECT_EQ(image.rgb(3, 5), Rgb(1, 2, 4));
 }
 
+// As pbrt-v4's film: after the imaging ratio, before the filter, by the largest component.
+TEST(Render, DimsSamplesToTheMaximumComponent) {
+  SceneDescription d;
+  d.camera = test::camera({0, 0, -3}, {0, 0, 0}, 40, {8, 8});
+  d.lights.push_back(Light(ConstantEnvironment{Rgb(0.25f, 0.5f, 1)}));
+  const Scene scene(std::move(d));
+  RenderSettings s = test::settings("volpath", 6);
+  s.resolution = s.crop_max = {8, 8};
+  s.imaging_ratio = 4;
+  for (const auto& [maximum, expected] :
+       {std::pair(2.0f, Rgb(0.5f, 1, 2)), std::pair(4.0f, Rgb(1, 2, 4))}) {
+    s.max_component = maximum;
+    EXPECT_EQ(render(scene, s).film.develop().rgb(3, 5), expected) << maximum;
+  }
+}
+
 TEST_P(RenderTest, ImagingRatioScalesVarianceAndNotGuides) {
   const Scene scene(foggy_scene());
   RenderSettings s = foggy_settings(GetParam());

@@ -86,6 +86,13 @@ TEST(LoadFilmTest, DerivesTheImagingRatio) {
               2);
 }
 
+TEST(LoadFilmTest, ReadsTheMaximumComponent) {
+  EXPECT_EQ(parse_options("").settings.max_component, infinity);
+  EXPECT_EQ(
+      parse_options("Film \"rgb\" \"float maxcomponentvalue\" 2.5").settings.max_component,
+      2.5f);
+}
+
 TEST(LoadFilterTest, HasPbrtsDefaults) {
   const auto filter = [](const std::string& text) {
     return parse_options(text).settings.filter;

@@ -42,6 +42,12 @@ double process_cpu_seconds() {
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
+// L with no component above `max`, its color kept. What is not finite is left to the film.
+Rgb limited(Rgb L, float max) {
+  const float largest = max_component(L);
+  return largest > max && is_finite(L) ? L * (max / largest) : L;
+}
+
 struct Pass {
   uint32_t first, count;  // samples of each pixel
 };
@@ -178,8 +184,9 @@ class RenderJob {
         offset.offset;
     const Vec2 u_lens =
         scene_.camera().settings().lens_radius > 0 ? sampler.next_2d() : Vec2{0.5f, 0.5f};
-    const PathSample sample = integrator_->Li(scene_.camera().ray(p_film, u_lens), sampler);
-    film_.add(pixel, sample, offset.weight * settings_.imaging_ratio);
+    PathSample sample = integrator_->Li(scene_.camera().ray(p_film, u_lens), sampler);
+    sample.L = limited(sample.L * settings_.imaging_ratio, settings_.max_component);
+    film_.add(pixel, sample, offset.weight);
   }
 
   void tell_progress(Pass pass, int64_t finished_pixels) {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "tyndall/image/filter.h"
+#include "tyndall/math/constants.h"
 #include "tyndall/math/vec.h"
 #include "tyndall/sampling/sampler.h"
 
@@ -37,6 +38,9 @@ struct RenderSettings {
   std::string output = "tyndall.exr";
   /// What pixels are multiplied by: pbrt-v4's exposure time * iso / 100.
   float imaging_ratio = 1;
+  /// Samples with a brighter component, after imaging_ratio, are dimmed to it: pbrt-v4's
+  /// maxcomponentvalue. It takes light away.
+  float max_component = infinity;
   /// Integrator options by dotted name, as `--set learned.direction=off` gives them.
   std::map<std::string, std::string> options;
 };

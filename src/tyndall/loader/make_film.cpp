@@ -104,8 +104,9 @@ void set_film(const std::string& type, ParameterSet& parameters, RenderSettings&
   read_pixel_bounds(parameters, settings);
   settings.output = parameters.string("filename", settings.output);
   read_sensor(parameters, settings);
-  parameters.ignore({"diagonal", "savefp16", "maxcomponentvalue", "coordinatesystem",
-                     "nbuckets", "lambdamin", "lambdamax"});
+  settings.max_component = parameters.number("maxcomponentvalue", infinity, positive);
+  parameters.ignore(
+      {"diagonal", "savefp16", "coordinatesystem", "nbuckets", "lambdamin", "lambdamax"});
 }
 
 }  // namespace tyndall::loader
