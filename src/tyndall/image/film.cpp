@@ -37,12 +37,11 @@ Film::Film(Vec2i full_size, Vec2i crop_min, Vec2i crop_max)
   pixels_.resize(static_cast<size_t>(width()) * static_cast<size_t>(height()));
 }
 
-Film::Pixel& Film::at(Vec2i pixel) {
+size_t Film::index(Vec2i pixel) const {
   assert(crop_min_.x <= pixel.x && pixel.x < crop_max_.x);
   assert(crop_min_.y <= pixel.y && pixel.y < crop_max_.y);
   const Vec2i p = pixel - crop_min_;
-  return pixels_[static_cast<size_t>(p.y) * static_cast<size_t>(width()) +
-                 static_cast<size_t>(p.x)];
+  return static_cast<size_t>(p.y) * static_cast<size_t>(width()) + static_cast<size_t>(p.x);
 }
 
 bool Film::accept(Pixel& pixel, Rgb L) {
@@ -104,7 +103,7 @@ void Film::add_total(size_t pixel, std::span<const double, 3> total) {
 
 double Film::mean(size_t pixel, int channel) const {
   const double mean = pixels_[pixel].mean[channel];
-  if (splatted_ == 0) return mean;
+  if (splats_.empty()) return mean;
   return mean + splats_[pixel].sum[static_cast<size_t>(channel)] / splatted_;
 }
 
@@ -112,11 +111,21 @@ double Film::mean(size_t pixel, int channel) const {
 double Film::variance(size_t pixel, int channel) const {
   const double n = pixels_[pixel].count;
   const double variance = n < 2 ? 0 : pixels_[pixel].sum_squares[channel] / (n * (n - 1));
-  if (splatted_ < 2) return variance;
+  if (splats_.empty() || splatted_ < 2) return variance;
   const auto c = static_cast<size_t>(channel);
   const double k = splatted_, sum = splats_[pixel].sum[c];
   const double spread = splats_[pixel].sum_squares[c] - sum * sum / k;
   return variance + std::max(spread, 0.0) / (k * (k - 1));
+}
+
+Film::Estimate Film::estimate(Vec2i pixel) const {
+  const size_t i = index(pixel);
+  Estimate estimate{};
+  for (int c = 0; c < 3; ++c) {
+    estimate.mean[static_cast<size_t>(c)] = mean(i, c);
+    estimate.variance[static_cast<size_t>(c)] = variance(i, c) * pixels_[i].count;
+  }
+  return estimate;
 }
 
 Image Film::develop() const {

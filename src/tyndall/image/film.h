@@ -48,6 +48,14 @@ class Film {
   /// filter is. Means and variances of samples and of splats are added. Totals that are not
   /// finite count as black and as rejected.
   void add_splats(std::span<const double> totals);
+  /// The same where there are none.
+  void add_no_splats() { ++splatted_; }
+
+  /// Red, green and blue of a pixel.
+  struct Estimate {
+    std::array<double, 3> mean, variance;  ///< the latter of one sample, not of the mean
+  };
+  Estimate estimate(Vec2i pixel) const;
 
   /// R,G,B; variance.R,G,B (of the pixel's mean, as if its samples were independent; zero
   /// below two samples); albedo.R,G,B; normal.X,Y,Z (averages, not unit); depth.Z (average
@@ -74,7 +82,8 @@ class Film {
   double variance(size_t pixel, int channel) const;
   static bool accept(Pixel& pixel, Rgb L);
   static void add_guides(Pixel& pixel, const PathSample& sample);
-  Pixel& at(Vec2i pixel);
+  Pixel& at(Vec2i pixel) { return pixels_[index(pixel)]; }
+  size_t index(Vec2i pixel) const;
   int width() const { return crop_max_.x - crop_min_.x; }
   int height() const { return crop_max_.y - crop_min_.y; }
 

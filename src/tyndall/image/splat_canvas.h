@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -13,6 +14,9 @@ namespace tyndall {
 struct Splat {
   Vec2 p_film;  ///< [pixels of the full picture]
   Rgb value;    ///< radiance times area of the film [pixels]
+  /// How many times as likely as by samples of the camera; infinite if those do not find
+  /// it.
+  float ratio = std::numeric_limits<float>::infinity();
 };
 
 /// Collects splats, each for all pixels whose filter reaches it: for a pixel the expected
@@ -25,6 +29,7 @@ class SplatCanvas {
   bool is_seen(Vec2 p_film) const;
   /// Adds in the order of the batches, and of the splats of each, on many threads.
   void add(std::span<const std::vector<Splat>> batches);
+  const Filter& filter() const { return *filter_; }
   /// Gives the sums, times `scale`, to the film as those of one sample, and starts anew.
   void give(Film& film, double scale);
 

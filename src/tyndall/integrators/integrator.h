@@ -33,7 +33,7 @@ class Integrator {
 
   /// Particles out of lights that find what Li() leaves to them; null if there are none.
   /// Those of as many samples as Li() is asked for are to be traced.
-  virtual const ParticleTracer* particles() const { return nullptr; }
+  virtual ParticleTracer* particles() { return nullptr; }
 
   /// Adds counters and notes.
   virtual void report(RenderStatistics& /*statistics*/) const {}

@@ -25,6 +25,7 @@ bool Particle::emit(float count) {
       source_.emit(u_light, u_direction, sampler_.next_2d());
   if (!start) return false;
   ray_ = start->ray;
+  ++rays_;
   Leg leg(scene_, ray_, start->medium);
   const SurfaceHit* hit = leg.end();
   if (!hit || !ParticleSource::is_specular(*hit->surface)) return false;
@@ -47,6 +48,7 @@ bool Particle::arrive() {
 }
 
 bool Particle::advance() {
+  ++rays_;
   Leg leg(scene_, ray_, medium_);
   for (size_t i = 0; const Leg::Span* span = leg.span(i); ++i) {
     if (!span->medium) continue;
@@ -119,6 +121,7 @@ void Particle::connect(const SplatCanvas& canvas, std::vector<Splat>& splats) {
   const Rgb scattered = scattered_to(w);
   if (is_black(scattered)) return;
   const Ray shadow = vertex_->spawn(w);
+  ++rays_;
   if (scene_.is_occluded(shadow, view->distance * (1 - shadow_shortening))) return;
   const Rgb T = transmittance(scene_, shadow, view->distance,
                               vertex_->medium_towards(scene_, w), tracking_);
@@ -131,7 +134,7 @@ void Particle::connect(const SplatCanvas& canvas, std::vector<Splat>& splats) {
   const float pixels = camera.pixels_per_solid_angle(view->ray.d) / sqr(view->distance);
   const Rgb value = carried_.beta / average(carried_.spectral) * scattered * T *
                     (pixels * particle_weight(ratio));
-  if (!is_black(value)) splats.push_back({view->p_film, value});
+  if (!is_black(value)) splats.push_back({view->p_film, value, ratio});
 }
 
 }  // namespace tyndall

@@ -37,6 +37,7 @@ class Particle {
   bool advance();
   /// Connects the vertex to the camera.
   void connect(const SplatCanvas& canvas, std::vector<Splat>& splats);
+  int rays() const { return rays_; }  ///< traced so far
 
  private:
   bool arrive();
@@ -54,6 +55,7 @@ class Particle {
   Carried carried_;
   float initial_ = 1;  // largest component that was emitted
   int hero_ = 0;
+  int rays_ = 0;
   int depth_ = 0;    // vertices so far
   int order_ = 0;    // of them, in media
   float ratio_ = 0;  // ParticleRatio of the path so far

@@ -2,7 +2,9 @@
 #include "tyndall/integrators/particle_pass.h"
 
 #include <algorithm>
+#include <limits>
 
+#include "tyndall/integrators/particle_worth.h"
 #include "tyndall/math/parallel_for.h"
 
 namespace tyndall {
@@ -10,15 +12,52 @@ namespace {
 
 // Splats of so many particles are kept until they are added.
 constexpr uint32_t batch_size = 512, batch_count = 128;
+// The numbers of samples after which the worth of particles is measured.
+constexpr uint32_t first_measure = 4, last_measure = 16;
 
 }  // namespace
 
 ParticlePass::ParticlePass(const Filter& filter, const RenderSettings& settings)
     : canvas_(filter, settings.crop_min, settings.crop_max),
       imaging_ratio_(double{settings.imaging_ratio}),
-      batches_(batch_count) {}
+      batches_(batch_count),
+      rays_(batch_count) {}
+
+uint32_t ParticlePass::prepare(ParticleTracer& particles, uint32_t first,
+                               const Film& film) {
+  if (first == first_measure || first == last_measure) measure(particles, first, film);
+  if (first < first_measure) return first_measure;
+  if (first < last_measure) return last_measure;
+  particles.end_measuring();
+  return std::numeric_limits<uint32_t>::max();
+}
+
+// By particles of the last sample, once more.
+void ParticlePass::measure(ParticleTracer& particles, uint32_t samples, const Film& film) {
+  if (particles.count() == 0) return;
+  const ParticleWorth worth(film, canvas_.filter());
+  ParticleWorth::Moments sums{};
+  double rays = 0;
+  trace(particles, samples - 1, [&](size_t batches) {
+    for (size_t i = 0; i < batches; ++i) {
+      const ParticleWorth::Moments moments =
+          worth.moments(batches_[i], particles.count(), imaging_ratio_);
+      for (size_t k = 0; k < sums.size(); ++k) sums[k] += moments[k];
+      rays += static_cast<double>(rays_[i]);
+    }
+  });
+  particles.change_count(worth.best_share(sums, particles.walk_rays() / samples, rays));
+}
 
 void ParticlePass::run(const ParticleTracer& particles, uint32_t index, Film& film) {
+  if (particles.count() == 0) return film.add_no_splats();
+  trace(particles, index, [&](size_t batches) { canvas_.add({batches_.data(), batches}); });
+  canvas_.give(film, imaging_ratio_ / particles.count());
+}
+
+// Lets `take` have the first so many batches, each time they are filled.
+void ParticlePass::trace(const ParticleTracer& particles, uint32_t index,
+                         const std::function<void(size_t batches)>& take) {
   const uint32_t count = particles.count();
   for (uint32_t start = 0; start < count; start += batch_size * batch_count) {
     const uint32_t left = count - start;
@@ -27,11 +66,10 @@ void ParticlePass::run(const ParticleTracer& particles, uint32_t index, Film& fi
       const uint32_t first = start + static_cast<uint32_t>(i) * batch_size;
       const uint32_t end = first + std::min(batch_size, count - first);
       batches_[i].clear();
-      particles.trace(index, first, end, canvas_, batches_[i]);
+      rays_[i] = particles.trace(index, first, end, canvas_, batches_[i]);
     });
-    canvas_.add({batches_.data(), batches});
+    take(batches);
   }
-  canvas_.give(film, imaging_ratio_ / count);
 }
 
 }  // namespace tyndall

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
+
 #include "tyndall/image/splat_canvas.h"
 #include "tyndall/integrators/particle_tracer.h"
 
@@ -13,13 +15,22 @@ class ParticlePass {
   /// `filter` must outlive it.
   ParticlePass(const Filter& filter, const RenderSettings& settings);
 
-  /// Those of the sample `index` of all pixels.
+  /// To be called before sample `first` of each pixel, with the film so far: finds out, at
+  /// fixed samples, how many particles are worth their cost. Returns up to which sample
+  /// run() may go on before it wants to be called again.
+  uint32_t prepare(ParticleTracer& particles, uint32_t first, const Film& film);
+  /// Traces the particles of the sample `index` of all pixels.
   void run(const ParticleTracer& particles, uint32_t index, Film& film);
 
  private:
+  void measure(ParticleTracer& particles, uint32_t samples, const Film& film);
+  void trace(const ParticleTracer& particles, uint32_t index,
+             const std::function<void(size_t batches)>& take);
+
   SplatCanvas canvas_;
   double imaging_ratio_;
   std::vector<std::vector<Splat>> batches_;
+  std::vector<int64_t> rays_;  // of each batch
 };
 
 }  // namespace tyndall

@@ -103,6 +103,7 @@ class Path {
   float direct_weight(const LightEnd& end);
   float hit_weight(size_t light, float light_pdf, float distance);
   float particle_ratio(const DirectionSample& s) const;
+  void record_cost() const;
   float weight_beside_particles(const SurfaceHit& hit) const;
   bool counts(int in_media, int on_surfaces = 0) const;
   // What one connection finds, before spectral MIS.

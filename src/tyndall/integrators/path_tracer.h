@@ -17,7 +17,7 @@ class PathTracer : public Integrator {
 
   PathSample Li(const Ray& ray, Sampler& sampler) const override;
   uint32_t prepare(uint32_t first) override;
-  const ParticleTracer* particles() const override { return rules_.particles; }
+  ParticleTracer* particles() override { return particles_ ? &*particles_ : nullptr; }
   void report(RenderStatistics& statistics) const override;
   bool learns() const override;
   void dump(GuidingFileWriter& out) const override;

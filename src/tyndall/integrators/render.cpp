@@ -122,7 +122,10 @@ class RenderJob {
         allowed = integrator_->prepare(done_);
         statistics_.training_seconds += clock_.seconds() - before;
       }
-      const uint32_t count = std::min(next_pass_size(), allowed - done_);
+      uint32_t end = allowed;
+      if (ParticleTracer* particles = integrator_->particles())
+        end = std::min(end, particle_pass_.prepare(*particles, done_, film_));
+      const uint32_t count = std::min(next_pass_size(), end - done_);
       render_pass({done_, count});
       done_ += count;
       if (options_.on_pass) options_.on_pass(film_, done_);
@@ -158,7 +161,7 @@ class RenderJob {
       const auto tile = static_cast<int>(i);
       render_tile({tile % columns, tile / columns}, pass);
     });
-    if (const ParticleTracer* particles = integrator_->particles())
+    if (ParticleTracer* particles = integrator_->particles())
       for (uint32_t i = pass.first; i < pass.first + pass.count; ++i)
         particle_pass_.run(*particles, i, film_);
     seconds_per_sample_ = std::max((clock_.seconds() - start) / pass.count, 1e-9);
