@@ -140,11 +140,12 @@ bool pays(float with, float spent, float without, double overhead = 1) {
 
 TEST(ConnectionBudget, GivesUpWhatGainsNothing) {
   EXPECT_FALSE(pays(1, 4, 1));
-  EXPECT_TRUE(pays(1, 2, 1.3f));   // 1.7 times the variance, at a cost of 9 to 5
-  EXPECT_FALSE(pays(1, 4, 1.3f));  // the same, 11 to 5
-  EXPECT_FALSE(pays(1, 2, 1.3f, 2));
-  EXPECT_TRUE(pays(1, 0, 1.15f));  // 1.3 times, 7 to 5
-  EXPECT_FALSE(pays(1, 1, 1.1f));  // 1.2 times, 8 to 5
+  EXPECT_TRUE(pays(1, 2, 1.5f));   // 2.3 times the variance, at a cost of 9 to 5
+  EXPECT_FALSE(pays(1, 4, 1.5f));  // the same, 11 to 5
+  EXPECT_FALSE(pays(1, 2, 1.5f, 2));
+  EXPECT_TRUE(pays(1, 0, 1.3f));    // 1.7 times, 7 to 5
+  EXPECT_FALSE(pays(1, 0, 1.2f));   // 1.44 times: less than a tenth is gained
+  EXPECT_FALSE(pays(1, 1, 1.25f));  // 1.6 times, 8 to 5
 }
 
 // One path in a thousand finds a lamp: that they vary more than was seen is likely.

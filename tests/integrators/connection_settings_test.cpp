@@ -28,6 +28,7 @@ TEST(ConnectionSettingsTest, EverySwitchOfLearnedTurnsItsPartOff) {
   EXPECT_FALSE(without("learned.distance").visibility);
   EXPECT_FALSE(without("learned.lit_surfaces").lit_surfaces);
   EXPECT_FALSE(without("learned.roulette").roulette);
+  EXPECT_FALSE(without("learned.sky").sky_directions);
   EXPECT_FALSE(without("learned.product").product);
   EXPECT_FALSE(without("learned.pretraining").pretraining);
   EXPECT_TRUE(without("learned.product").direction);

@@ -64,6 +64,20 @@ TEST_P(ImageEnvironments, SamplesMatchTheDensity) {
   EXPECT_LT(r.samples_of_zero_pdf, 10);
 }
 
+TEST_P(ImageEnvironments, InvertsItsSamples) {
+  RandomStream random(4);
+  for (const Light& light :
+       {Light(make_image(GetParam())), Light(ConstantEnvironment{Rgb(1)})})
+    for (int i = 0; i < 2000; ++i) {
+      const Vec2 u = random.next_2d();
+      const auto s = light.sample({}, u);
+      ASSERT_TRUE(s);
+      const Vec2 back = light.invert(s->wi);
+      EXPECT_NEAR(back.x, u.x, 1e-3f);
+      EXPECT_NEAR(back.y, u.y, 1e-3f);
+    }
+}
+
 // Estimates of integrals of radiance against closed forms over pixels.
 TEST_P(ImageEnvironments, EstimatesIrradianceMoments) {
   const ImageEnvironment image = make_image(GetParam());

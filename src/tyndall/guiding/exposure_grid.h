@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <functional>
 #include <span>
 #include <vector>
 
 #include "tyndall/geometry/ray.h"
-#include "tyndall/math/bounds.h"
+#include "tyndall/guiding/cell_grid.h"
 
 namespace tyndall {
 
@@ -17,15 +16,12 @@ namespace tyndall {
 /// variance, never bias. Beyond the box it is what it is at the border.
 class ExposureGrid {
  public:
-  /// About `cells` cells, nearly cubes. Equally exposed everywhere, until measured.
-  ExposureGrid(const Bounds3& box, int cells, float floor);
+  /// Equally exposed everywhere, until measured.
+  ExposureGrid(const CellGrid& grid, float floor);
 
-  int slices() const { return size_[2]; }
-  /// What arrives at cells of a slice; `exposure` is asked for points in them, in any unit,
-  /// and told the number of the cell. Different slices may be measured by different
-  /// threads.
-  void measure_slice(int slice, const std::function<float(Vec3 p, size_t cell)>& exposure);
-  /// To be called once all slices are measured.
+  /// What arrives at a cell, in any unit. From any thread, for different cells.
+  void set(size_t cell, float exposure);
+  /// To be called once all cells are set.
   void finish();
 
   /// In [floor, 1].
@@ -36,15 +32,7 @@ class ExposureGrid {
   size_t memory() const { return values_.size() * sizeof(float); }  ///< [bytes]
 
  private:
-  size_t index(int x, int y, int z) const {
-    const auto row =
-        static_cast<size_t>(z) * static_cast<size_t>(size_[1]) + static_cast<size_t>(y);
-    return row * static_cast<size_t>(size_[0]) + static_cast<size_t>(x);
-  }
-
-  Bounds3 box_;
-  int size_[3];
-  Vec3 scale_;  // cells per scene unit
+  CellGrid grid_;
   float floor_;
   std::vector<float> values_;
 };

@@ -2,7 +2,6 @@
 #include "tyndall/guiding/walk_worth.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <span>
 
@@ -13,8 +12,7 @@ namespace tyndall {
 namespace {
 
 constexpr size_t directions = 6;
-constexpr float cells_wanted = 4096;
-constexpr int max_size = 64;
+constexpr int cells_wanted = 4096;
 // Walks' worth of belief that a place is like what it is part of.
 constexpr double prior_walks = 32;
 // What varies most is seen least: second moments are taken for twice what they seem.
@@ -52,31 +50,11 @@ Sums sums(const Tally& tally) {
 
 }  // namespace
 
-WalkWorth::WalkWorth(const Bounds3& box) : box_(box) {
-  assert(!box.is_empty());
-  const Vec3 edges = box.diagonal();
-  const float least = std::max(1e-3f * box.radius(), 1e-30f);
-  const Vec3 d = max(edges, {least, least, least});
-  const float edge = std::cbrt(d.x / cells_wanted) * std::cbrt(d.y) * std::cbrt(d.z);
-  size_t cells = 1;
-  for (int i = 0; i < 3; ++i) {
-    const auto axis = static_cast<size_t>(i);
-    size_[axis] = std::clamp(static_cast<int>(std::lround(d[i] / edge)), 1, max_size);
-    cells *= static_cast<size_t>(size_[axis]);
-    scale_[i] = static_cast<float>(size_[axis]) / d[i];
-  }
-  places_ = std::vector<Tally>(cells * directions);
-}
+WalkWorth::WalkWorth(const Bounds3& box)
+    : grid_(box, cells_wanted), places_(grid_.count() * directions) {}
 
 size_t WalkWorth::place(Vec3 p, Vec3 w) const {
-  size_t cell = 0;
-  for (int i = 2; i >= 0; --i) {
-    const int size = size_[static_cast<size_t>(i)];
-    const float x = (p[i] - box_.min[i]) * scale_[i];
-    const float inside = std::clamp(x, 0.0f, static_cast<float>(size - 1));
-    cell = cell * static_cast<size_t>(size) + static_cast<size_t>(inside);
-  }
-  return cell * directions + direction(w);
+  return grid_.find(p) * directions + direction(w);
 }
 
 void WalkWorth::record(size_t place, float value, float cost) const {

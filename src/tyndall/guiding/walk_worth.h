@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <atomic>
 #include <cstdint>
 #include <vector>
 
-#include "tyndall/math/bounds.h"
+#include "tyndall/guiding/cell_grid.h"
 
 namespace tyndall {
 
@@ -52,9 +51,7 @@ class WalkWorth {
     std::atomic<int64_t> squares = 0, cost = 0, walks = 0;
   };
 
-  Bounds3 box_;
-  std::array<int, 3> size_;
-  Vec3 scale_;  // cells per scene unit
+  CellGrid grid_;
   mutable std::vector<Tally> places_;
   std::vector<float> survivals_;
 };

@@ -19,9 +19,9 @@ constexpr double leg_cost = 2.5, possible_cost = 1;
 // most of which is for the first of a leg. Measured: the best of 1, 1.4, 2 and 2.8.
 constexpr double more_of_a_kind = 1.4;
 
-// Connections are given up if they leave less than this share of the efficiency of plain
-// paths, whose variance is taken for as large as it may well be.
-constexpr double least_efficiency = 0.85;
+// Connections are given up unless they gain this much in efficiency over plain paths, whose
+// variance is taken for as large as it may well be: less is what it cost to learn.
+constexpr double least_efficiency = 1.1;
 constexpr double least_paths = 4000, least_paths_for_price = 256;  // to judge by
 constexpr double tail_errors = 5;  // standard errors of the variance of plain paths
 

@@ -221,8 +221,11 @@ const ConnectionLeg::Forced* ConnectionLeg::forced(size_t light) {
 }
 
 const LightProbabilities& ConnectionLeg::forced_lights() {
-  if (!forced_lights_)
-    forced_lights_ = context_->light_choice().at_point(ray_.at(proxy_.distance_to(0.5f)));
+  if (forced_lights_) return *forced_lights_;
+  const LightChoice& choice = context_->light_choice();
+  const bool leaves_far_ones = context_->settings().min_distance_ratio > 1;
+  forced_lights_ = leaves_far_ones ? choice.at_point(ray_.at(proxy_.distance_to(0.5f)))
+                                   : choice.at_infinity();
   return *forced_lights_;
 }
 

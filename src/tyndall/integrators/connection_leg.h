@@ -118,6 +118,10 @@ class ConnectionLeg {
   /// first legs that a walk may well pass without one, and on all where it is predicted
   /// what lights at infinity see.
   bool forces_collisions() const { return forces_collisions_; }
+  /// Whether the light is one of those.
+  bool is_forced(size_t light) {
+    return forces_collisions_ && forced_light_probability(light) > 0;
+  }
   const Ray& ray() const { return ray_; }
   const LegProxy& proxy() const { return proxy_; }
   bool is_empty() const { return !context_ || proxy_.is_empty(); }

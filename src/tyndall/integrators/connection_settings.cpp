@@ -53,6 +53,7 @@ const Switches& switches_of(const std::string& integrator) {
       {"learned.pretraining",
        [](ConnectionSettings& s, bool is_on) { s.pretraining = is_on; }},
       {"learned.roulette", [](ConnectionSettings& s, bool is_on) { s.roulette = is_on; }},
+      {"learned.sky", [](ConnectionSettings& s, bool is_on) { s.sky_directions = is_on; }},
       {"learned.distance", [](ConnectionSettings& s, bool is_on) { s.visibility = is_on; }},
       {"learned.lit_surfaces", [](ConnectionSettings& s, bool is_on) {
          if (!is_on) s.lit_surfaces = 0;

@@ -23,6 +23,7 @@ struct ConnectionSettings {
   bool visibility = false;  ///< predict what the lights see, for distances
   /// ... what lights at infinity see, too, with forced collisions on every leg.
   bool far_visibility = true;
+  bool sky_directions = true;  ///< ... and where skies are seen, for directions to them
   /// What they see, instead of tracing it.
   std::shared_ptr<const LightVisibility> known_visibility = {};
   /// Connect to surfaces that lights shine on, by way of as many surfaces in all; zero: do

@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <cassert>
+#include <numeric>
 
 #include "tyndall/integrators/light_aim.h"
 #include "tyndall/integrators/pilot_points.h"
@@ -95,13 +96,23 @@ void LightVisibility::measure_sky(size_t light, const Scene& scene,
                                   const LightVisibilitySettings& settings) {
   Bounds3 box;
   for (const Vec3 p : points) box.extend(p);
-  ExposureGrid grid(box, settings.cells, settings.floor);
-  const SkyProbe probe(scene, scene.lights()[light], settings.rays_per_cell);
-  for_rows(grid.slices(), [&](int slice) {
-    grid.measure_slice(slice, [&](Vec3 p, size_t cell) { return probe.exposure(p, cell); });
+  const CellGrid cells(box, settings.cells);
+  ExposureGrid exposure(cells, settings.floor);
+  auto guide = std::make_shared<SkyGuide>(cells);
+  const SkyProbe probe(scene, scene.lights()[light]);
+  for_rows(cells.size(2), [&](int z) {
+    for (int y = 0; y < cells.size(1); ++y)
+      for (int x = 0; x < cells.size(0); ++x) {
+        const size_t cell = cells.index(x, y, z);
+        const SkyGuide::Weights seen = probe.look(cells.middle(x, y, z), cell);
+        exposure.set(cell, std::accumulate(seen.begin(), seen.end(), 0.0f));
+        guide->set(cell, seen);
+      }
   });
-  grid.finish();
-  skies_.emplace(light, std::move(grid));
+  exposure.finish();
+  guide->finish();
+  exposures_.emplace(light, std::move(exposure));
+  skies_.emplace(light, std::move(guide));
 }
 
 TYNDALL_VECTOR_CLONES
@@ -112,7 +123,7 @@ void LightVisibility::multiply(size_t light, const Ray& ray, std::span<const flo
   const std::span<float> seen(visibility.data(), t.size());
   if (const auto map = maps_.find(light); map != maps_.end())
     map->second->visibility(ray, t, seen, map->second->level_of(footprint));
-  else if (const auto sky = skies_.find(light); sky != skies_.end())
+  else if (const auto sky = exposures_.find(light); sky != exposures_.end())
     sky->second.exposure(ray, t, seen);
   else
     return;
@@ -140,7 +151,8 @@ size_t LightVisibility::memory() const {
   size_t bytes = 0;
   for (const auto& [light, map] : depths_) bytes += map.memory();
   for (const auto& [light, map] : maps_) bytes += map->memory();
-  for (const auto& [light, sky] : skies_) bytes += sky.memory();
+  for (const auto& [light, exposure] : exposures_) bytes += exposure.memory();
+  for (const auto& [light, sky] : skies_) bytes += sky->memory();
   return bytes;
 }
 

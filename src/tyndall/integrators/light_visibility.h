@@ -7,6 +7,7 @@
 
 #include "tyndall/guiding/exposure_grid.h"
 #include "tyndall/guiding/optical_depth_map.h"
+#include "tyndall/guiding/sky_guide.h"
 #include "tyndall/guiding/visibility_map.h"
 #include "tyndall/scene/scene.h"
 
@@ -17,12 +18,11 @@ struct LightVisibilitySettings {
   /// Of all lights together. Bounds memory, 22 bytes each, and time, four rays each at
   /// the edges of shadows.
   size_t texels = size_t{1} << 21;
-  int cells = 1 << 14;  ///< of the grid of an environment
-  int rays_per_cell = 32;
+  int cells = 1 << 12;  ///< of the grid of an environment, 256 rays each
 };
 
 /// What each light sees, predicted: one visibility map per light, traced once; for each
-/// environment a grid of how much of it a place sees.
+/// environment a grid of how much of it a place sees, and where.
 ///
 /// Maps look where camera paths come by: a far light spends its texels on the part of its
 /// sky that the scene takes up. Bright lights get finer maps than dim ones.
@@ -36,7 +36,9 @@ class LightVisibility {
   /// Takes over maps, by the index of their light: for tools and tests.
   using Depths = std::map<size_t, OpticalDepthMap>;
   using Maps = std::map<size_t, std::shared_ptr<const VisibilityMap>>;
-  explicit LightVisibility(Maps maps) : maps_(std::move(maps)) {}
+  using Skies = std::map<size_t, std::shared_ptr<const SkyGuide>>;
+  explicit LightVisibility(Maps maps, Skies skies = {})
+      : maps_(std::move(maps)), skies_(std::move(skies)) {}
 
   /// Multiplies each weight by the mean visibility of its taps from the light: t.size() is
   /// a multiple of weights.size(), neighbours share a weight; at most 64 weights.
@@ -49,9 +51,14 @@ class LightVisibility {
   void multiply_transmittance(size_t light, const Ray& ray, std::span<const float> t,
                               std::span<float> weights) const;
   const Maps& maps() const { return maps_; }
-  /// Whether anything is predicted for the light.
+  /// Whether it is predicted where the light is seen from.
   bool knows(size_t light) const {
-    return maps_.find(light) != maps_.end() || skies_.find(light) != skies_.end();
+    return maps_.find(light) != maps_.end() || exposures_.find(light) != exposures_.end();
+  }
+  /// Where places see this environment; null if nothing is predicted.
+  const SkyGuide* sky(size_t light) const {
+    const auto found = skies_.find(light);
+    return found != skies_.end() ? found->second.get() : nullptr;
   }
   size_t memory() const;  ///< [bytes]
 
@@ -61,7 +68,8 @@ class LightVisibility {
 
   Depths depths_;
   Maps maps_;  // none for environments
-  std::map<size_t, ExposureGrid> skies_;
+  std::map<size_t, ExposureGrid> exposures_;
+  Skies skies_;
 };
 
 }  // namespace tyndall

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "tyndall/integrators/free_flight.h"
+#include "tyndall/integrators/sky_sampling.h"
 #include "tyndall/sampling/mis.h"
 
 namespace tyndall {
@@ -155,7 +156,8 @@ void Path::add_environment() {
   if (!rules_.orders.contains(order_)) return;
   for (const size_t i : scene_.environments()) {
     const Light& light = scene_.lights()[i];
-    add(beta_ * light.environment(ray_.d) * hit_weight(i, light.pdf(ray_.d), infinity));
+    add(beta_ * light.environment(ray_.d) *
+        hit_weight(i, environment_pdf(light, sky_guide(i), start_.p, ray_.d), infinity));
   }
 }
 

@@ -31,6 +31,8 @@ struct PathRules {
   const ConnectionBudget* budget;        ///< null: each connection once
   /// Null: walks survive by what they carry, not by what they are worth. Needs the budget.
   const WalkWorth* worth = nullptr;
+  /// Predicts where skies are seen; null: they are sampled as if nothing hid them.
+  const LightVisibility* visibility = nullptr;
   bool sees_through =
       false;  ///< nothing hides a light from a connection: for training only
   /// Null: walks alone find light that lamps send over specular surfaces.
@@ -92,6 +94,7 @@ class Path {
     LightEnd end;
   };
   Connection connect_to(const Vertex& vertex, const SelectedLight& selected);
+  const SkyGuide* sky_guide(size_t light) const;
   void connect_vertex();
   Rgb arriving(const SelectedLight& selected, const LightSample& sample, const Ray& shadow,
                const Medium* medium);

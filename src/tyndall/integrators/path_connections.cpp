@@ -4,6 +4,7 @@
 #include <type_traits>
 
 #include "tyndall/integrators/path.h"
+#include "tyndall/integrators/sky_sampling.h"
 #include "tyndall/sampling/mis.h"
 
 namespace tyndall {
@@ -46,8 +47,8 @@ bool Path::counts(int in_media, int on_surfaces) const {
 
 Path::Connection Path::connect_to(const Vertex& vertex, const SelectedLight& selected) {
   Connection connection{};
-  const std::optional<LightSample> sample =
-      selected.light->sample(vertex.p(), numbers_on(*selected.light));
+  const std::optional<LightSample> sample = sample_light(
+      *selected.light, sky_guide(selected.index), vertex.p(), numbers_on(*selected.light));
   if (!sample || !(sample->pdf > 0)) return connection;
   const Rgb f = vertex.eval(sample->wi);
   if (is_black(f)) return connection;
@@ -61,6 +62,11 @@ Path::Connection Path::connect_to(const Vertex& vertex, const SelectedLight& sel
                     .to_light = sample->wi,
                     .distance = sample->distance};
   return connection;
+}
+
+// Null for lights that are no environments, too.
+const SkyGuide* Path::sky_guide(size_t light) const {
+  return rules_.visibility ? rules_.visibility->sky(light) : nullptr;
 }
 
 // The light that reaches the start of the ray that goes towards it.
@@ -101,7 +107,7 @@ void Path::connect_vertex() {
 // Whether next event estimation at the current vertex would have the weight zero.
 bool Path::is_left_to_connections(size_t light) {
   if (!rules_.connections || !vertex_->is_in_medium()) return false;
-  return leg_->forces_collisions() || leg_->reaches_single(light, t_vertex_);
+  return leg_->is_forced(light) || leg_->reaches_single(light, t_vertex_);
 }
 
 // Of next event estimation at the current vertex.

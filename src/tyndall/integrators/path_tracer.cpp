@@ -64,6 +64,8 @@ PathTracer::PathTracer(const Scene& scene, const RenderSettings& settings,
   }
   connections_.emplace(scene, useful);
   rules_.connections = &*connections_;
+  if (connections_->settings().sky_directions)
+    rules_.visibility = plain_rules_.visibility = connections_->visibility();
   rules_.filling = nullptr;
   budget_.emplace(pilot_radiance(), resolution_,
                   connections_->visibility() ? overhead_of_visibility : overhead);

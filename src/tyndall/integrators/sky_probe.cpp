@@ -8,24 +8,25 @@
 
 namespace tyndall {
 
-SkyProbe::SkyProbe(const Scene& scene, const Light& light, int rays)
+SkyProbe::SkyProbe(const Scene& scene, const Light& light)
     : scene_(&scene),
       light_(&light),
-      rays_(rays),
       dims_(!std::ranges::all_of(scene.description().media, &Medium::is_homogeneous)) {}
 
-float SkyProbe::exposure(Vec3 p, size_t key) const {
+SkyGuide::Weights SkyProbe::look(Vec3 p, size_t key) const {
   const Medium* medium = dims_ ? medium_at(*scene_, p) : nullptr;
   RandomStream random(hash(uint64_t{3}, key));
-  float sum = 0;
-  for (int i = 0; i < rays_; ++i) {
+  SkyGuide::Weights seen{};
+  for (size_t i = 0; i < SkyGuide::strata; ++i) {
     const Vec2 u = random.next_2d();
-    const Vec2 stratified{(static_cast<float>(i) + u.x) / static_cast<float>(rays_), u.y};
-    const std::optional<LightSample> sample = light_->sample(p, stratified);
+    const Vec2 corner{static_cast<float>(i % SkyGuide::side),
+                      static_cast<float>(i / SkyGuide::side)};
+    const std::optional<LightSample> sample =
+        light_->sample(p, (corner + u) * (1.0f / SkyGuide::side));
     if (!sample || !(sample->pdf > 0)) continue;
-    sum += luminance(sample->L) / sample->pdf * along({p, sample->wi}, medium);
+    seen[i] = luminance(sample->L) / sample->pdf * along({p, sample->wi}, medium);
   }
-  return sum;
+  return seen;
 }
 
 float SkyProbe::along(const Ray& ray, const Medium* medium) const {

@@ -53,7 +53,7 @@ TailDensities tail_densities(const ConnectionContext& context, ConnectionLeg& be
   TailDensities densities{.direct = collision * end.probability * end.pdf,
                           .hit = collision * end.pdf_direction};
   if (!leg.reaches_single(end.light, t)) {
-    if (!leg.forces_collisions()) return densities;
+    if (!leg.is_forced(end.light)) return densities;
     const ConnectionLeg::Forced* forced = leg.forced(end.light);
     densities.direct = 0;
     densities.forced =

@@ -225,6 +225,12 @@ float Light::pdf(Vec3 wi) const {
   return light ? light->distribution.pdf(image_position(*light, wi)) * inv_4pi : 0;
 }
 
+Vec2 Light::invert(Vec3 wi) const {
+  if (std::holds_alternative<ConstantEnvironment>(light_)) return invert_uniform_sphere(wi);
+  const auto* light = std::get_if<ImageEnvironment>(&light_);
+  return light ? light->distribution.invert(image_position(*light, wi)) : Vec2{};
+}
+
 float Light::pdf(Vec3 from, Vec3 w) const {
   const auto* light = std::get_if<VolumeLight>(&light_);
   return light ? light->pdf(from, w) : 0;

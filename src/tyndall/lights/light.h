@@ -137,6 +137,9 @@ class Light {
   /// Density with which sample() draws the direction wi towards this environment [1/sr];
   /// zero for other lights.
   float pdf(Vec3 wi) const;
+  /// The numbers with which sample() draws the direction wi towards this environment; zeros
+  /// for other lights.
+  Vec2 invert(Vec3 wi) const;
   /// Density with which sample() from `from` draws the direction w towards this volume
   /// light [1/sr]; zero for other lights.
   float pdf(Vec3 from, Vec3 w) const;

@@ -78,6 +78,17 @@ LightProbabilities LightChoice::along(const Ray& ray, float t_min, float t_max) 
   });
 }
 
+LightProbabilities LightChoice::at_infinity() const {
+  LightProbabilities result;
+  const float total = power_ - finite_power_;
+  if (!(total > 0)) return result;
+  float running = 0;
+  for (const Candidate& c : candidates_)
+    result.cdf_.push_back((running += c.is_infinite ? c.power : 0) / total);
+  for (float& value : result.cdf_) value *= total / running;
+  return result;
+}
+
 std::optional<SelectedLight> LightProbabilities::select(const std::vector<Light>& lights,
                                                         float u) const {
   if (cdf_.empty()) return std::nullopt;

@@ -50,6 +50,8 @@ class LightChoice {
   LightProbabilities at_point(Vec3 p) const;
   /// Finite lights only: lights at infinity have no place for a segment to be near.
   LightProbabilities along(const Ray& ray, float t_min, float t_max) const;
+  /// Lights at infinity only, by power: they have no place either. Empty if there are none.
+  LightProbabilities at_infinity() const;
   bool has_finite_lights() const { return finite_power_ > 0; }
 
  private:
