@@ -85,6 +85,24 @@ TEST(ConnectionBudget, DetailsOfThePictureAreNotNoise) {
   EXPECT_NEAR(budget.price(), 0.01 / 7, 0.02 * 0.01 / 7);
 }
 
+// A lamp in the picture is far brighter than what squares are clamped to, and does not vary.
+TEST(ConnectionBudget, LampsInThePictureAreNotNoise) {
+  for (const float lamp : {1.0f, 500.0f}) {
+    ConnectionBudget budget(1, size);
+    for (int i = 0; i < paths; ++i) {
+      const float sign = i % 2 == 0 ? 1.0f : -1.0f;
+      budget.record_path({3, 3}, {.value = lamp, .legs = 2});
+      for (int x = 10; x < size.x; x += 2)
+        budget.record_path({x, 40}, {.value = 1 + 0.1f * sign, .legs = 2});
+    }
+    budget.update();
+    // The mean of the picture is part of the scale, as in relMSE.
+    const double mean = (double{lamp} + 27) / 28;
+    const double expected = 27.0 / 28 * 0.01 / (1 + 0.01 * sqr(mean)) / 7;
+    EXPECT_NEAR(budget.price(), expected, 0.06 * expected) << lamp;
+  }
+}
+
 TEST(ConnectionBudget, WeighsRadianceByThatOfTheRegion) {
   ConnectionBudget budget(1, size);
   record(budget, {1, 0.5f, 1}, {4, 0.5f, 1});

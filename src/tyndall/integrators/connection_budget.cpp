@@ -51,6 +51,7 @@ constexpr double cost_unit = 1.0 / 16;
 // clamped: one firefly must not decide.
 constexpr double unit = 1e-8, largest = 1e4;
 constexpr double fourth_unit = 1e-4;  // of the squares of squares
+constexpr double largest_value = 100;  // whose square is the largest
 
 int64_t quantize(double value) {
   return std::isfinite(value) ? static_cast<int64_t>(std::min(value, largest) / unit) : 0;
@@ -107,11 +108,12 @@ float ConnectionBudget::path_cost(int legs, float spent) const {
 
 void ConnectionBudget::record_path(Vec2i pixel, const Finished& path) const {
   Region& r = regions_[region(pixel)];
-  const int64_t radiance = quantize(double{path.value} * scale_);
-  recent_.record(pixel, radiance);
-  add_relaxed(r.radiance, radiance);
+  const double value = double{path.value} * scale_;
+  // Clamped as squares are: else the variance of a pixel would seem too small, or none.
+  recent_.record(pixel, std::isfinite(value) ? quantize(std::min(value, largest_value)) : 0);
+  add_relaxed(r.radiance, quantize(value));
   add_relaxed(r.paths, 1);
-  add_relaxed(r.recent.squares, quantize(sqr(double{path.value} * scale_)));
+  add_relaxed(r.recent.squares, quantize(sqr(value)));
   add_relaxed(r.recent.paths, 1);
   add_relaxed(r.recent.cost,
               static_cast<int64_t>(double{path_cost(path.legs, path.spent)} / cost_unit));
