@@ -85,7 +85,8 @@ TEST(ConnectionBudget, DetailsOfThePictureAreNotNoise) {
   EXPECT_NEAR(budget.price(), 0.01 / 7, 0.02 * 0.01 / 7);
 }
 
-// A lamp in the picture is far brighter than what squares are clamped to, and does not vary.
+// A lamp in the picture is far brighter than what squares are clamped to, and does not
+// vary.
 TEST(ConnectionBudget, LampsInThePictureAreNotNoise) {
   for (const float lamp : {1.0f, 500.0f}) {
     ConnectionBudget budget(1, size);
@@ -143,8 +144,9 @@ TEST(ConnectionBudget, HoldsOutAgainstFireflies) {
 }
 
 // Everywhere, paths that find 1 -+ deviation: with connections of this cost, and without.
-bool pays(float with, float spent, float without, double overhead = 1) {
-  ConnectionBudget budget(1, size, overhead);
+bool pays(float with, float spent, float without, double overhead = 1,
+          double least_efficiency = 0.85) {
+  ConnectionBudget budget(1, size, overhead, least_efficiency);
   for (int x = 0; x < size.x; ++x)
     for (int i = 0; i < paths; ++i) {
       const size_t region = budget.region({x, 0});
@@ -158,12 +160,18 @@ bool pays(float with, float spent, float without, double overhead = 1) {
 
 TEST(ConnectionBudget, GivesUpWhatGainsNothing) {
   EXPECT_FALSE(pays(1, 4, 1));
-  EXPECT_TRUE(pays(1, 2, 1.5f));   // 2.3 times the variance, at a cost of 9 to 5
-  EXPECT_FALSE(pays(1, 4, 1.5f));  // the same, 11 to 5
-  EXPECT_FALSE(pays(1, 2, 1.5f, 2));
-  EXPECT_TRUE(pays(1, 0, 1.3f));    // 1.7 times, 7 to 5
-  EXPECT_FALSE(pays(1, 0, 1.2f));   // 1.44 times: less than a tenth is gained
-  EXPECT_FALSE(pays(1, 1, 1.25f));  // 1.6 times, 8 to 5
+  EXPECT_TRUE(pays(1, 2, 1.3f));   // 1.7 times the variance, at a cost of 9 to 5
+  EXPECT_FALSE(pays(1, 4, 1.3f));  // the same, 11 to 5
+  EXPECT_FALSE(pays(1, 2, 1.3f, 2));
+  EXPECT_TRUE(pays(1, 0, 1.15f));  // 1.3 times, 7 to 5
+  EXPECT_FALSE(pays(1, 1, 1.1f));  // 1.2 times, 8 to 5
+}
+
+TEST(ConnectionBudget, GivesUpWhatGainsLessThanIsAskedFor) {
+  EXPECT_FALSE(pays(1, 2, 1.3f, 1, 1.1));  // 1.7 times the variance, at a cost of 9 to 5
+  EXPECT_TRUE(pays(1, 2, 1.5f, 1, 1.1));   // 2.3 times
+  EXPECT_FALSE(pays(1, 0, 1.2f, 1, 1.1));  // 1.44 times, 7 to 5
+  EXPECT_TRUE(pays(1, 0, 1.3f, 1, 1.1));   // 1.7 times
 }
 
 // One path in a thousand finds a lamp: that they vary more than was seen is likely.

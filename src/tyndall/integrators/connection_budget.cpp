@@ -19,9 +19,6 @@ constexpr double leg_cost = 2.5, possible_cost = 1;
 // most of which is for the first of a leg. Measured: the best of 1, 1.4, 2 and 2.8.
 constexpr double more_of_a_kind = 1.4;
 
-// Connections are given up unless they gain this much in efficiency over plain paths, whose
-// variance is taken for as large as it may well be: less is what it cost to learn.
-constexpr double least_efficiency = 1.1;
 constexpr double least_paths = 4000, least_paths_for_price = 256;  // to judge by
 constexpr double tail_errors = 5;  // standard errors of the variance of plain paths
 
@@ -50,7 +47,7 @@ constexpr double cost_unit = 1.0 / 16;
 // Records, relative to the mean radiance or its square, are kept in these units and
 // clamped: one firefly must not decide.
 constexpr double unit = 1e-8, largest = 1e4;
-constexpr double fourth_unit = 1e-4;  // of the squares of squares
+constexpr double fourth_unit = 1e-4;   // of the squares of squares
 constexpr double largest_value = 100;  // whose square is the largest
 
 int64_t quantize(double value) {
@@ -63,8 +60,10 @@ struct ConnectionBudget::Worth {
   std::vector<double> weights, means;  // of squares, and radiance, by region
 };
 
-ConnectionBudget::ConnectionBudget(float mean_radiance, Vec2i resolution, double overhead)
+ConnectionBudget::ConnectionBudget(float mean_radiance, Vec2i resolution, double overhead,
+                                   double least_efficiency)
     : overhead_(overhead),
+      least_efficiency_(least_efficiency),
       scale_(mean_radiance > 0 ? 1 / mean_radiance : 1),
       resolution_(resolution),
       size_{std::clamp(resolution.x, 1, max_size), std::clamp(resolution.y, 1, max_size)},
@@ -110,7 +109,8 @@ void ConnectionBudget::record_path(Vec2i pixel, const Finished& path) const {
   Region& r = regions_[region(pixel)];
   const double value = double{path.value} * scale_;
   // Clamped as squares are: else the variance of a pixel would seem too small, or none.
-  recent_.record(pixel, std::isfinite(value) ? quantize(std::min(value, largest_value)) : 0);
+  recent_.record(pixel,
+                 std::isfinite(value) ? quantize(std::min(value, largest_value)) : 0);
   add_relaxed(r.radiance, quantize(value));
   add_relaxed(r.paths, 1);
   add_relaxed(r.recent.squares, quantize(sqr(value)));
@@ -222,7 +222,7 @@ void ConnectionBudget::decide(const Worth& worth) {
                                         with.variance * with.cost;
   const double variance =
       without.variance + tail_errors * standard_error(worth, without.paths);
-  pays_ = variance * without.cost > least_efficiency * with.variance * with.cost;
+  pays_ = variance * without.cost > least_efficiency_ * with.variance * with.cost;
 }
 
 void ConnectionBudget::update_cell(size_t cell, const Worth& worth) {

@@ -33,8 +33,11 @@ enum class Effort { single, dual, lit_from_leg, lit_from_vertex, glow, forced };
 class ConnectionBudget {
  public:
   /// `mean_radiance` of the picture, roughly; its size in pixels; what connections cost
-  /// altogether, in units of what their rays cost.
-  ConnectionBudget(float mean_radiance, Vec2i resolution, double overhead = 1);
+  /// altogether, in units of what their rays cost; and the efficiency that they must have
+  /// not to be given up, that of plain paths being one. Their variance is taken for as
+  /// large as it may well be.
+  ConnectionBudget(float mean_radiance, Vec2i resolution, double overhead = 1,
+                   double least_efficiency = 0.85);
 
   /// The region of a pixel; any pixel has one.
   size_t region(Vec2i pixel) const;
@@ -132,7 +135,7 @@ class ConnectionBudget {
   double standard_error(const Worth& worth, double paths) const;
   void decide(const Worth& worth);
 
-  double overhead_, scale_, price_ = 0;
+  double overhead_, least_efficiency_, scale_, price_ = 0;
   Vec2i resolution_, size_;
   bool is_recording_ = true, is_decided_ = false, pays_ = true, lit_pays_ = true;
   mutable std::vector<Region> regions_;

@@ -22,6 +22,9 @@ constexpr uint32_t trial_paths = 1 << 17;
 // What connections cost over what their rays cost: techniques are built for them, and bins
 // filled where it is predicted what lights see. Measured on the archetype scenes.
 constexpr double overhead = 1.2, overhead_of_visibility = 2.3;
+// Connections with predicted visibility are given up unless they gain so much over plain
+// paths; others, which lose less, if they leave less than this.
+constexpr double least_efficiency = 0.85, least_efficiency_of_visibility = 1.1;
 
 bool can_be_hit(const Light& light) {
   return light.is_environment() || std::holds_alternative<AreaLight>(light.variant());
@@ -67,8 +70,11 @@ PathTracer::PathTracer(const Scene& scene, const RenderSettings& settings,
   if (connections_->settings().sky_directions)
     rules_.visibility = plain_rules_.visibility = connections_->visibility();
   rules_.filling = nullptr;
-  budget_.emplace(pilot_radiance(), resolution_,
-                  connections_->visibility() ? overhead_of_visibility : overhead);
+  if (connections_->visibility())
+    budget_.emplace(pilot_radiance(), resolution_, overhead_of_visibility,
+                    least_efficiency_of_visibility);
+  else
+    budget_.emplace(pilot_radiance(), resolution_, overhead, least_efficiency);
   rules_.budget = &*budget_;
   if (connections.roulette) learn_worth();
 }
