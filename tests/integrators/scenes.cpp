@@ -67,16 +67,28 @@ RenderSettings settings(const std::string& integrator, int max_depth,
 
 RunningMoments estimate(const Scene& scene, const RenderSettings& settings, int count,
                         const std::function<Ray(Sampler&)>& make_ray) {
-  const std::unique_ptr<Integrator> integrator = make_integrator(scene, settings);
+  return estimate(*make_integrator(scene, settings), settings, count, make_ray);
+}
+
+RunningMoments estimate(Integrator& integrator, const RenderSettings& settings, int count,
+                        const std::function<Ray(Sampler&)>& make_ray) {
   RunningMoments moments;
   uint32_t allowed = 0;
   for (uint32_t i = 0; i < static_cast<uint32_t>(count); ++i) {
-    if (i >= allowed) allowed = integrator->prepare(i);
+    if (i >= allowed) allowed = integrator.prepare(i);
     Sampler sampler(settings.sampler, settings.seed, {0, 0}, i);
     const Ray ray = make_ray(sampler);
-    moments.add(double{integrator->Li(ray, sampler).L.r});
+    moments.add(double{integrator.Li(ray, sampler).L.r});
   }
   return moments;
+}
+
+ConnectionSettings with_visibility(std::shared_ptr<const LightVisibility> visibility) {
+  return {.single = true,
+          .dual = true,
+          .min_distance_ratio = 1,
+          .visibility = true,
+          .known_visibility = std::move(visibility)};
 }
 
 }  // namespace tyndall::test

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 
+#include "tyndall/integrators/connection_settings.h"
 #include "tyndall/integrators/integrator.h"
 #include "tyndall/integrators/render.h"
 #include "tyndall/math/statistics.h"
@@ -34,5 +36,12 @@ RenderSettings settings(const std::string& integrator, int max_depth,
 /// uniform numbers.
 RunningMoments estimate(const Scene& scene, const RenderSettings& settings, int count,
                         const std::function<Ray(Sampler&)>& make_ray);
+
+/// The same of an integrator.
+RunningMoments estimate(Integrator& integrator, const RenderSettings& settings, int count,
+                        const std::function<Ray(Sampler&)>& make_ray);
+
+/// Single and dual connections with predicted visibility; null: it is traced.
+ConnectionSettings with_visibility(std::shared_ptr<const LightVisibility> visibility);
 
 }  // namespace tyndall::test

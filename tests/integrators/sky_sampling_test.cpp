@@ -48,27 +48,15 @@ SceneDescription gap(Light sky) {
   return d;
 }
 
-ConnectionSettings guided_by(std::shared_ptr<const LightVisibility> visibility) {
-  return {.single = true,
-          .dual = true,
-          .min_distance_ratio = 1,
-          .visibility = true,
-          .known_visibility = std::move(visibility)};
-}
-
 RunningMoments radiance(const Scene& scene, const ConnectionSettings& connections,
                         uint64_t seed, int count) {
   RenderSettings settings = test::settings("learned", 3);
   settings.seed = seed;
-  const PathTracer tracer(scene, settings, connections);
-  RunningMoments moments;
-  for (int i = 0; i < count; ++i) {
-    Sampler sampler(settings.sampler, settings.seed, {0, 0}, static_cast<uint32_t>(i));
+  PathTracer tracer(scene, settings, connections);
+  return test::estimate(tracer, settings, count, [](Sampler& sampler) {
     const Vec2 u = sampler.next_2d();
-    const Ray ray{{0, 0, 0}, normalize(Vec3{u.x - 0.5f, 0.6f * u.y - 0.4f, 1})};
-    moments.add(double{tracer.Li(ray, sampler).L.r});
-  }
-  return moments;
+    return Ray{{0, 0, 0}, normalize(Vec3{u.x - 0.5f, 0.6f * u.y - 0.4f, 1})};
+  });
 }
 
 // What is seen where, but of the wrong places, and of the wrong directions.
@@ -112,11 +100,11 @@ TEST(SkySamplingTest, FindsTheSkyAndAWrongGuideIsNoBias) {
   for (const Light& light : {Light(ConstantEnvironment{Rgb(1)}), picture_sky()}) {
     const Scene scene(gap(light));
     const RunningMoments path = radiance(scene, {}, 1, 60'000);
-    ConnectionSettings unguided = guided_by({});
+    ConnectionSettings unguided = test::with_visibility({});
     unguided.sky_directions = false;
     const RunningMoments without = radiance(scene, unguided, 2, 60'000);
-    const RunningMoments with = radiance(scene, guided_by({}), 3, 60'000);
-    const RunningMoments wrong = radiance(scene, guided_by(lies()), 4, 60'000);
+    const RunningMoments with = radiance(scene, test::with_visibility({}), 3, 60'000);
+    const RunningMoments wrong = radiance(scene, test::with_visibility(lies()), 4, 60'000);
     for (const RunningMoments* moments : {&without, &with, &wrong}) {
       EXPECT_LT(moments->standard_error(), 0.05 * moments->mean());
       EXPECT_GT(welch_p_value(path, *moments), 1e-3)

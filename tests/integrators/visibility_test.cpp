@@ -26,14 +26,6 @@ SceneDescription shaded_fog(Light light = Light(PointLight{{0, 2, 0}, Rgb(10)}))
   return d;
 }
 
-ConnectionSettings with_maps(std::shared_ptr<const LightVisibility> maps) {
-  return {.single = true,
-          .dual = true,
-          .min_distance_ratio = 1,
-          .visibility = true,
-          .known_visibility = std::move(maps)};
-}
-
 // A map of light 0 whose distances are made from the right ones.
 std::shared_ptr<const LightVisibility> changed_map(const Scene& scene,
                                                    float (*change)(float)) {
@@ -58,20 +50,14 @@ std::shared_ptr<const LightVisibility> changed_map(const Scene& scene,
 }
 
 RunningMoments radiance(const Scene& scene, const ConnectionSettings& connections,
-                        uint64_t seed, uint32_t count) {
+                        uint64_t seed, int count) {
   RenderSettings settings = test::settings("learned", 3);
   settings.seed = seed;
   PathTracer tracer(scene, settings, connections);
-  RunningMoments moments;
-  uint32_t allowed = 0;
-  for (uint32_t i = 0; i < count; ++i) {
-    if (i >= allowed) allowed = tracer.prepare(i);
-    Sampler sampler(settings.sampler, settings.seed, {0, 0}, i);
+  return test::estimate(tracer, settings, count, [](Sampler& sampler) {
     const Vec2 u = sampler.next_2d();
-    const Ray ray{{0, 0, -3}, normalize(Vec3{u.x - 0.5f, 0.6f * u.y - 0.4f, 2})};
-    moments.add(double{tracer.Li(ray, sampler).L.r});
-  }
-  return moments;
+    return Ray{{0, 0, -3}, normalize(Vec3{u.x - 0.5f, 0.6f * u.y - 0.4f, 2})};
+  });
 }
 
 TEST(PredictedVisibilityTest, AWrongMapIsNoBias) {
@@ -84,7 +70,8 @@ TEST(PredictedVisibilityTest, AWrongMapIsNoBias) {
   double right_variance = 0;
   const auto right = std::make_shared<const LightVisibility>(scene);
   for (const auto& maps : {right, dark, inverted}) {
-    const RunningMoments guided = radiance(scene, with_maps(maps), seed++, 120'000);
+    const RunningMoments guided =
+        radiance(scene, test::with_visibility(maps), seed++, 120'000);
     EXPECT_LT(guided.standard_error(), 0.02 * guided.mean());
     EXPECT_GT(welch_p_value(path, guided), 1e-3)
         << seed << ": " << path.mean() << " +- " << path.standard_error() << " vs "
@@ -101,7 +88,7 @@ TEST(PredictedVisibilityTest, AWrongMapIsNoBias) {
 // the shadow.
 TEST(PredictedVisibilityTest, DistancesHaveTheirDensity) {
   const Scene scene(shaded_fog());
-  const ConnectionContext context(scene, with_maps({}));
+  const ConnectionContext context(scene, test::with_visibility({}));
   const Pivots pivots(scene, 1);
   for (const Vec3 d : {Vec3{0.2f, 0, 1}, Vec3{0, 0.1f, 1}, Vec3{0.5f, -0.2f, 1}}) {
     const Ray ray{{0, 0, -3}, normalize(d)};
@@ -164,7 +151,7 @@ TEST(PredictedVisibilityTest, SamplesLandInTheLight) {
        {Light(PointLight{{0, 2, 0}, Rgb(10)}), Light(PointLight{{3, 60, 0}, Rgb(10)}),
         Light(AreaLight{.shape = &sphere, .L = Rgb(1), .two_sided = false})}) {
     const Scene scene(shaded_fog(light));
-    EXPECT_GT(lit_share(scene, with_maps({})), 0.9);
+    EXPECT_GT(lit_share(scene, test::with_visibility({})), 0.9);
     EXPECT_LT(lit_share(scene, {.single = true, .min_distance_ratio = 1}), 0.85);
   }
 }

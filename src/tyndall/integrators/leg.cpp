@@ -64,6 +64,18 @@ Rgb glow_along(Leg& leg, RandomStream& rng) {
   return sum;
 }
 
+Rgb transmittance_along(Leg& leg, float t, RandomStream& rng) {
+  Rgb product(1);
+  for (size_t i = 0; const Leg::Span* span = leg.span(i); ++i) {
+    if (span->t_min >= t) break;
+    if (!span->medium) continue;
+    const Ray rest{leg.ray().at(span->t_min), leg.ray().d};
+    product *=
+        estimate_span(*span->medium, rest, std::min(t, span->t_max) - span->t_min, rng);
+  }
+  return product;
+}
+
 Passage passage(const Scene& scene, const Ray& ray, float t_max, const Medium* medium,
                 RandomStream& rng) {
   MediumSpans spans;

@@ -60,6 +60,9 @@ inline Rgb estimate_span(const Medium& medium, const Ray& ray, float t_max,
 /// Unbiased estimate of the radiance that the media along a leg emit towards its start.
 Rgb glow_along(Leg& leg, RandomStream& rng);
 
+/// Unbiased estimate of the transmittance of the media along [0, t] of a leg.
+Rgb transmittance_along(Leg& leg, float t, RandomStream& rng);
+
 /// Light that goes along [0, t_max] of a ray that no surface blocks, through all boundaries
 /// in between.
 struct Passage {

@@ -32,10 +32,7 @@ bool Particle::emit(float count) {
   carried_.beta = start->beta;
   initial_ = max_component(start->beta);
   ratio_ = count * start->density;
-  for (size_t i = 0; const Leg::Span* span = leg.span(i); ++i)
-    if (span->medium)
-      carried_.beta *= estimate_span(*span->medium, {ray_.at(span->t_min), ray_.d},
-                                     span->t_max - span->t_min, tracking_);
+  carried_.beta *= transmittance_along(leg, leg.length(), tracking_);
   medium_ = leg.end_medium();
   vertex_.emplace(*hit, -ray_.d, medium_);
   return arrive();

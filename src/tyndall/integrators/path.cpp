@@ -45,7 +45,7 @@ void Path::look_at_end(Leg& leg) {
   if (!saw_end_) return;
   const Rgb beta = beta_;
   const Medium* const medium = medium_;
-  beta_ *= leg_transmittance(leg, leg.length());
+  beta_ *= transmittance_along(leg, leg.length(), tracking_);
   medium_ = leg.end_medium();
   if (const SurfaceHit* hit = leg.end()) {
     add_surface_emission(*hit);

@@ -145,7 +145,6 @@ class Path {
   float edge_density(const LegStart& x, const ConnectionLeg& before, const SurfacePoint& y,
                      Vec3 w, float distance) const;
   LitChain chain_to(const Vertex& y, float distance) const;
-  Rgb leg_transmittance(Leg& leg, float t);
 
   const Scene& scene_;
   const PathRules& rules_;

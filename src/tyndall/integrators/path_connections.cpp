@@ -164,18 +164,6 @@ void Path::connect(Leg& leg) {
     spend(Effort::lit_from_leg, [&] { return connect_lit(leg); });
 }
 
-Rgb Path::leg_transmittance(Leg& leg, float t) {
-  Rgb product(1);
-  for (size_t i = 0; const Leg::Span* span = leg.span(i); ++i) {
-    if (span->t_min >= t) break;
-    if (!span->medium) continue;
-    const Ray rest{leg.ray().at(span->t_min), leg.ray().d};
-    product *= estimate_span(*span->medium, rest, std::min(t, span->t_max) - span->t_min,
-                             tracking_);
-  }
-  return product;
-}
-
 Rgb Path::connect_single(Leg& leg) {
   const std::optional<SelectedLight> selected = leg_->select_light(number_for_light());
   const float u = sampler_.next_1d();
@@ -195,8 +183,8 @@ Rgb Path::connect_at(Leg& leg, const DistanceSample& s, const Medium& medium,
   if (is_black(connection.light)) return Rgb();
   const TailDensities densities =
       tail_densities(*rules_.connections, *leg_before_, start_, *leg_, s.t, connection.end);
-  const Rgb value =
-      leg_transmittance(leg, s.t) * medium.at(last.p()).sigma_s * connection.light;
+  const Rgb value = transmittance_along(leg, s.t, tracking_) * medium.at(last.p()).sigma_s *
+                    connection.light;
   return beta_ * value *
          (densities.weight(densities.*technique) /
           (s.pdf_t * selected.probability * connection.end.pdf));

@@ -41,8 +41,8 @@ Rgb Path::connect_dual(Leg& leg) {
   const ScatteredOnce found = connect_beyond(start, u_last, &TailDensities::dual);
   teach(start, technique, found);
   if (is_black(found.light)) return Rgb();
-  const Rgb scattered =
-      leg_transmittance(leg, first->t) * medium->at(x.p()).sigma_s * x.eval(direction->w);
+  const Rgb scattered = transmittance_along(leg, first->t, tracking_) *
+                        medium->at(x.p()).sigma_s * x.eval(direction->w);
   const float pdf = first->pdf_t * direction->pdf * selected->probability;
   return beta_ * scattered * found.light * (found.weight / pdf);
 }
@@ -92,8 +92,9 @@ Path::ScatteredOnce Path::connect_beyond(const DualStart& start, float u,
   const Vertex y(next.ray().at(second->t), -w, medium);
   const Connection connection = connect_to(y, start.light);
   if (is_black(connection.light)) return {.light = Rgb(), .distance = second->t};
-  return {.light = leg_transmittance(next, second->t) * medium->at(y.p()).sigma_s *
-                   connection.light / (second->pdf_t * connection.end.pdf),
+  return {.light = transmittance_along(next, second->t, tracking_) *
+                   medium->at(y.p()).sigma_s * connection.light /
+                   (second->pdf_t * connection.end.pdf),
           .weight = weight_beyond(start, next_leg, second->t, connection.end, technique),
           .distance = second->t};
 }

@@ -101,8 +101,8 @@ Rgb Path::connect_lit(Leg& leg) {
   const float T = rules_.connections->filling_transmittance(view->distance);
   const float edge = T * x.pdf(view->w) * abs_dot(y.ng, view->w) / sqr(view->distance) *
                      leg_->proxy().collision_pdf_t(s->t) / s->pdf_t;
-  const Rgb scattered =
-      leg_transmittance(leg, s->t) * medium->at(x.p()).sigma_s * x.eval(view->w);
+  const Rgb scattered = transmittance_along(leg, s->t, tracking_) *
+                        medium->at(x.p()).sigma_s * x.eval(view->w);
   return record(*lit,
                 beta_ * scattered * view->light * (lit_weight(*lit, edge, {}) / s->pdf_t));
 }

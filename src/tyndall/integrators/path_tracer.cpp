@@ -70,11 +70,10 @@ PathTracer::PathTracer(const Scene& scene, const RenderSettings& settings,
   if (connections_->settings().sky_directions)
     rules_.visibility = plain_rules_.visibility = connections_->visibility();
   rules_.filling = nullptr;
-  if (connections_->visibility())
-    budget_.emplace(pilot_radiance(), resolution_, overhead_of_visibility,
-                    least_efficiency_of_visibility);
-  else
-    budget_.emplace(pilot_radiance(), resolution_, overhead, least_efficiency);
+  const bool foresees = connections_->visibility();
+  budget_.emplace(pilot_radiance(), resolution_,
+                  foresees ? overhead_of_visibility : overhead,
+                  foresees ? least_efficiency_of_visibility : least_efficiency);
   rules_.budget = &*budget_;
   if (connections.roulette) learn_worth();
 }
