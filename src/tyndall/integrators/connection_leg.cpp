@@ -137,20 +137,22 @@ ConnectionLeg::PerLight& ConnectionLeg::aim_at(size_t light) {
   if (cache_ && cache_->light == light) return *cache_;
   cache_.emplace();
   cache_->light = light;
-  cache_->base = useful_base(light);
+  cache_->base = base(light);
+  cache_->varies = cache_->base && varies(cache_->base->segment());
   return *cache_;
 }
 
-std::optional<EquiangularSampling> ConnectionLeg::useful_base(size_t light) const {
+std::optional<EquiangularSampling> ConnectionLeg::base(size_t light) const {
   const std::optional<Vec3> pivot = (*pivots_)(light);
   if (!pivot) return std::nullopt;
   const EquiangularSampling base(ray_, *pivot, proxy_.t_min(), t_max_);
-  if (!(base.integral() > 0)) return std::nullopt;
-  const PivotSegment& segment = base.segment();
+  return base.integral() > 0 ? std::optional(base) : std::nullopt;
+}
+
+bool ConnectionLeg::varies(const PivotSegment& segment) const {
   const float nearest = segment.s_near() < 0 ? segment.h() : segment.r_near();
   const float farthest = segment.r(segment.s(segment.length()));
-  if (!(farthest > context_->settings().min_distance_ratio * nearest)) return std::nullopt;
-  return base;
+  return farthest > context_->settings().min_distance_ratio * nearest;
 }
 
 TYNDALL_VECTOR_CLONES
@@ -176,14 +178,14 @@ ConnectionLeg::Single ConnectionLeg::bin_single(size_t light,
 const ConnectionLeg::Single* ConnectionLeg::single(size_t light) {
   if (is_empty() || !context_->settings().single) return nullptr;
   PerLight& cache = aim_at(light);
-  if (cache.base && !cache.single) cache.single = bin_single(light, *cache.base);
+  if (cache.varies && !cache.single) cache.single = bin_single(light, *cache.base);
   return cache.single ? &*cache.single : nullptr;
 }
 
 bool ConnectionLeg::reaches_single(size_t light, float t) {
   if (is_empty() || !context_->settings().single) return false;
   const PerLight& cache = aim_at(light);
-  return cache.base && cache.base->pdf_t(t) > 0;
+  return cache.varies && cache.base->pdf_t(t) > 0;
 }
 
 const DoubleScatteringDistance* ConnectionLeg::dual_base(size_t light) {

@@ -132,7 +132,7 @@ class ConnectionLeg {
   /// The point that the techniques aim at; empty for lights at infinity.
   std::optional<Vec3> pivot(size_t light) const { return (*pivots_)(light); }
 
-  /// The last vertex before the light. Null where connections to it would be of no use.
+  /// The last vertex before the light. Null where its distance hardly varies.
   using Single = BinnedDistance<EquiangularSampling, 64>;
   const Single* single(size_t light);
   /// Whether single(light) can put a vertex at t: its bins are not needed for that.
@@ -159,13 +159,15 @@ class ConnectionLeg {
   // What is known of one light, each once somebody asks.
   struct PerLight {
     size_t light;
-    std::optional<EquiangularSampling> base;  // empty where connections are of no use
+    std::optional<EquiangularSampling> base;  // empty where nothing can be aimed at it
+    bool varies = false;                      // its distance, enough for single connections
     std::optional<Single> single;
     std::optional<DoubleScatteringDistance> dual_base;
     std::optional<Double> dual;
   };
   PerLight& aim_at(size_t light);
-  std::optional<EquiangularSampling> useful_base(size_t light) const;
+  std::optional<EquiangularSampling> base(size_t light) const;
+  bool varies(const PivotSegment& segment) const;
   Single bin_single(size_t light, const EquiangularSampling& base) const;
   const DoubleScatteringDistance* dual_base(size_t light);
   const LightProbabilities& lights();

@@ -17,8 +17,9 @@ class RecordCache;
 struct ConnectionSettings {
   bool single = false;  ///< through one further scattering vertex on the leg
   bool dual = false;    ///< through two: one on the leg, one beyond
-  /// Legs along which the distance to the light varies by less than this factor are left to
-  /// next event estimation: there is nothing to gain.
+  /// Legs along which the distance to the light varies by less than this factor leave
+  /// single connections to next event estimation: there is nothing to gain. Dual ones have
+  /// a direction to gain.
   float min_distance_ratio = 1.2f;
   bool visibility = false;  ///< predict what the lights see, for distances
   /// ... what lights at infinity see, too, with forced collisions on every leg.
