@@ -29,7 +29,9 @@ TEST(CellGridTest, MiddlesLieInTheirCells) {
         for (int x = 0; x < grid.size(0); ++x) {
           const Vec3 p = grid.middle(x, y, z);
           EXPECT_TRUE(bounds.contains(p));
-          if (bounds.min != bounds.max) EXPECT_EQ(grid.find(p), grid.index(x, y, z));
+          if (bounds.min != bounds.max) {
+            EXPECT_EQ(grid.find(p), grid.index(x, y, z));
+          }
           cells.insert(grid.index(x, y, z));
         }
     EXPECT_EQ(cells.size(), grid.count());

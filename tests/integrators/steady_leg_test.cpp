@@ -33,7 +33,9 @@ TEST(SteadyLegTest, IsLeftByDualConnectionsOnly) {
   EXPECT_FALSE(connection.single(0));
   EXPECT_FALSE(connection.reaches_single(0, 0.1f));
   ASSERT_TRUE(connection.dual(0));
-  LegStart x{.p = short_ray.at(0.1f), .t = 0.1f, .is_in_medium = true};
+  LegStart x;
+  x.t = 0.1f;
+  x.is_in_medium = true;
   EXPECT_TRUE(connection.reaches_dual(x, 0));
   x.t = 2 * end;
   EXPECT_FALSE(connection.reaches_dual(x, 0));

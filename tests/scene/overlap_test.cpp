@@ -198,7 +198,10 @@ TEST(OverlapTest, PlainSurfacesDoNotVoteAboutTheCamera) {
   const Surface floor{
       .shape = Disk{Transform::translate({0, -0.5f, 0}) * Transform::rotate(90, {1, 0, 0}),
                     0, 4, 0, 2 * pi, false},
-      .material = DiffuseBsdf(Rgb(0.5f))};
+      .material = DiffuseBsdf(Rgb(0.5f)),
+      .media = {},
+      .emission = {},
+      .name = {}};
   const Scene in_fog(
       scene_of(1, {sphere_boundary({0, 0, 0}, 5, 0, no_medium), floor}, {0, 0, 0}));
   EXPECT_EQ(in_fog.camera_media(), std::vector<int>{0});

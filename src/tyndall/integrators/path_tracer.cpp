@@ -184,7 +184,7 @@ void PathTracer::record_plain_paths() const {
 void PathTracer::report(RenderStatistics& statistics) const {
   for (const std::string& note : notes_) statistics.notes.push_back(note);
   if (rules_.particles)
-    statistics.counters["particles"] = double{rules_.particles->count()};
+    statistics.counters["particles"] = static_cast<double>(rules_.particles->count());
   if (!budget_) return;
   statistics.counters["connections.single"] = budget_->mean_count(Effort::single, 0);
   statistics.counters["connections.dual"] = budget_->mean_count(Effort::dual, 0);

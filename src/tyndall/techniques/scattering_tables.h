@@ -73,7 +73,8 @@ struct ThetaWarp {
   float side;   ///< 1 if theta > alpha, else -1
   float width;  ///< of the piece in y
 
-  ThetaWarp(float a, float side) : a(a), side(side), width(by_sign(side, 1 - a, a)) {}
+  ThetaWarp(float y_alpha, float sign)
+      : a(y_alpha), side(sign), width(by_sign(sign, 1 - y_alpha, y_alpha)) {}
 
   static constexpr float linear_part = 0.05f;
 
