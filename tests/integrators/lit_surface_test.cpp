@@ -45,6 +45,23 @@ SceneDescription shaded_room(const std::string& lamp) {
   return d;
 }
 
+// Far from what scatters: light comes through a narrow cone.
+void add_far_lamp(SceneDescription& d, const std::string& lamp) {
+  const Vec3 p = 20 * normalize(Vec3{0.3f, -0.2f, 1});
+  if (lamp == "far point") d.lights.push_back(Light(PointLight{p, Rgb(1200)}));
+  if (lamp == "far spot")
+    d.lights.push_back(Light(SpotLight{.p = p,
+                                       .axis = normalize(-p),
+                                       .I = Rgb(1200),
+                                       .cos_total = 0.9f,
+                                       .cos_falloff_start = 0.95f}));
+  if (lamp != "far sphere") return;
+  Surface sun = test::boundary_sphere(0.4f, p, no_medium, no_medium);
+  sun.material = DiffuseBsdf{Rgb(0)};
+  sun.emission = AreaEmission{Rgb(2400), false};
+  d.surfaces.push_back(sun);
+}
+
 // A foggy box between a floor and a roof with a round hole, under the sun or a sky.
 SceneDescription open_room(const std::string& light) {
   SceneDescription d;
@@ -58,21 +75,29 @@ SceneDescription open_room(const std::string& light) {
   d.camera_medium = 0;
   if (light == "sun")
     d.lights.push_back(Light(DistantLight{normalize(Vec3{0.3f, -0.2f, 1}), Rgb(3)}));
+  else if (light.starts_with("far"))
+    add_far_lamp(d, light);
   else
     d.lights.push_back(Light(ConstantEnvironment{Rgb(1)}));
   return d;
 }
 
+bool is_outside(const std::string& light) {
+  return light == "sun" || light == "sky" || light.starts_with("far");
+}
+
 SceneDescription lit_room(const std::string& light) {
-  return light == "sun" || light == "sky" ? open_room(light) : shaded_room(light);
+  return is_outside(light) ? open_room(light) : shaded_room(light);
 }
 
 class LitSurfaceTest : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Lamps, LitSurfaceTest,
-                         testing::Values("point", "spot", "sphere", "disk", "sun"));
+                         testing::Values("point", "spot", "sphere", "disk", "sun",
+                                         "far point", "far spot", "far sphere"));
 class LitRoomTest : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Lights, LitRoomTest,
-                         testing::Values("point", "spot", "sphere", "disk", "sun", "sky"));
+                         testing::Values("point", "spot", "sphere", "disk", "sun", "sky",
+                                         "far spot", "far sphere"));
 
 struct Mean {
   double value = 0, variance = 0;
@@ -114,7 +139,12 @@ float expected_base(const std::string& lamp, const Light& light, const LitPoint&
   const float distance = lit.edge[0].length;
   if (lamp == "point") return inv_4pi / sqr(distance);
   if (lamp == "spot") return uniform_cone_pdf(0.7f) / sqr(distance);
-  if (lamp == "sun") return 3 / (lit.flux.r * lit.choice.density);
+  const float pdf = 1 / (lit.flux.r * lit.choice.density);  // of emission one
+  if (lamp == "sun") return 3 * pdf;
+  if (lamp == "far sphere") return 2400 * pdf;
+  if (lamp == "far point") return 1200 * pdf / sqr(distance);
+  if (const auto* spot = std::get_if<SpotLight>(&light.variant()); spot && lamp != "spot")
+    return spot->intensity(-lit.to_light()).r * pdf / sqr(distance);
   const float area_of_light = area(*std::get<AreaLight>(light.variant()).shape);
   return inv_pi / area_of_light / (lamp == "disk" ? 2.0f : 1.0f);
 }
@@ -136,7 +166,7 @@ TEST_P(LitSurfaceTest, DensitiesAreThoseOfTheSamples) {
       const float cosine = abs_dot(lit->first.point.ng, lit->to_light());
       const std::array<float, max_lit_surfaces> densities = sampling.densities(
           lit->light, lit->first.point.p, lit->to_light(), distance, cosine);
-      if (GetParam() == "sun" && lit->surfaces > 1) continue;  // flux has reflectances
+      if (is_outside(GetParam()) && lit->surfaces > 1) continue;  // flux has reflectances
       const float base = expected_base(GetParam(), scene.lights()[0], *lit);
       const float expected = lit->choice.density * base * cosine;
       // Where the direction is at the border of a cell, rounding may choose the other.
@@ -148,6 +178,20 @@ TEST_P(LitSurfaceTest, DensitiesAreThoseOfTheSamples) {
     }
     sampling.update();
   }
+}
+
+// Of evenly chosen rays of a lamp so far away one in 1600 would get into the room.
+TEST_P(LitSurfaceTest, FindsSurfacesHoweverFarTheLamp) {
+  const Scene scene(lit_room(GetParam()));
+  const LitSurfaceSampling sampling(scene, 1);
+  RandomStream random(7);
+  int found = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const float u = random.next_1d();
+    const Vec2 u_point = random.next_2d();
+    found += sampling.sample(u, u_point, random.next_2d(), random) ? 1 : 0;
+  }
+  EXPECT_GT(found, 200);
 }
 
 // Walks over more surfaces start from the light and carry what is left of its power.

@@ -33,6 +33,18 @@ bool is_round(const Sphere& sphere) {
          std::abs(size.x - size.z) <= 1e-4f * size.x;
 }
 
+// Of cones: surfaces that bound what matters lie a little beyond it.
+constexpr float margin = 1.1f;
+
+// One minus the cosine of the half-angle of the cone in which rays from within `radius` of
+// p go that meet the sphere around the box; two, all directions, from near it.
+float width_towards(const Bounds3& box, Vec3 p, float radius) {
+  if (box.is_empty()) return 2;
+  const float sine = (margin * box.radius() + radius) / length(box.center() - p);
+  if (!(sine > 0 && sine < 0.5f)) return 2;
+  return sqr(sine) / (1 + safe_sqrt(1 - sqr(sine)));
+}
+
 // The normal of all of a shape; empty if it varies.
 std::optional<Vec3> common_normal(const Shape& shape) {
   constexpr int probes = 16;
@@ -62,20 +74,37 @@ std::optional<EmissionSquare> EmissionSquare::of(const Light& light, const Bound
     return square;
   }
   const Frame upright = Frame::from_z({0, 0, 1});
-  if (std::holds_alternative<PointLight>(variant))
-    return EmissionSquare(light, Kind::point, upright, 0);
-  if (const auto* spot = std::get_if<SpotLight>(&variant))
-    return EmissionSquare(light, Kind::spot, Frame::from_z(spot->axis), 0);
+  if (const auto* point = std::get_if<PointLight>(&variant))
+    return EmissionSquare(light, Kind::point, upright, 0).aimed(box, point->p, 0);
+  if (const auto* spot = std::get_if<SpotLight>(&variant)) {
+    EmissionSquare square(light, Kind::spot, Frame::from_z(spot->axis), 0);
+    square.width_ = 1 - spot->cos_total;
+    return square.aimed(box, spot->p, 0);
+  }
   const auto* emitter = std::get_if<AreaLight>(&variant);
   if (!emitter) return std::nullopt;
   const float a = area(*emitter->shape);
   const auto* sphere = std::get_if<Sphere>(emitter->shape);
-  if (sphere && is_round(*sphere) && !emitter->two_sided)
-    return EmissionSquare(light, Kind::sphere, upright, a);
+  if (sphere && is_round(*sphere) && !emitter->two_sided) {
+    const Bounds3 ball = sphere->bounds();
+    return EmissionSquare(light, Kind::sphere, upright, a)
+        .aimed(box, ball.center(), 0.5f * (ball.max.x - ball.min.x));
+  }
   if (!(a > 0)) return EmissionSquare(light, Kind::bent, upright, a);
   if (const std::optional<Vec3> n = common_normal(*emitter->shape))
     return EmissionSquare(light, Kind::flat, Frame::from_z(*n), a);
   return EmissionSquare(light, Kind::bent, upright, a);
+}
+
+// Far lights shine on what matters through a narrow cone; what else they do is left to
+// walks.
+EmissionSquare EmissionSquare::aimed(const Bounds3& box, Vec3 p, float radius) const {
+  const float width = width_towards(box, p, radius);
+  if (!(width < width_)) return *this;
+  EmissionSquare square = *this;
+  square.width_ = width;
+  square.frame_ = Frame::from_z(normalize(box.center() - p));
+  return square;
 }
 
 const AreaLight& EmissionSquare::area_light() const {
@@ -84,11 +113,10 @@ const AreaLight& EmissionSquare::area_light() const {
 
 EmittedRay EmissionSquare::emit(Vec2 direction, Vec2 point) const {
   if (const auto* light = std::get_if<PointLight>(&light_->variant()))
-    return {{light->p, sample_uniform_sphere(direction)}, light->I, inv_4pi};
+    return {{light->p, direction_in_cone(direction)}, light->I, uniform_cone_pdf(width_)};
   if (const auto* light = std::get_if<SpotLight>(&light_->variant())) {
-    const float width = 1 - light->cos_total;
-    const Vec3 w = frame_.to_world(sample_uniform_cone(direction, width));
-    return {{light->p, w}, light->intensity(w), uniform_cone_pdf(width)};
+    const Vec3 w = direction_in_cone(direction);
+    return {{light->p, w}, light->intensity(w), uniform_cone_pdf(width_)};
   }
   if (kind_ == Kind::parallel) return emit_parallel(direction);
   return kind_ == Kind::sphere ? emit_sphere(direction, point)
@@ -107,19 +135,23 @@ Vec2 EmissionSquare::position_of(Vec3 p) const {
   return {0.5f + 0.5f * q.x / radius_, 0.5f + 0.5f * q.y / radius_};
 }
 
+Vec3 EmissionSquare::direction_in_cone(Vec2 u) const {
+  return frame_.to_world(sample_uniform_cone(u, width_));
+}
+
 // The direction first, uniform; then a point whose normal is about it by the cosine: the
 // same density as by area and cosine.
 EmittedRay EmissionSquare::emit_sphere(Vec2 direction, Vec2 point) const {
   const auto& sphere = std::get<Sphere>(*area_light().shape);
   const Bounds3 box = sphere.bounds();
-  const Vec3 w = sample_uniform_sphere(direction);
+  const Vec3 w = direction_in_cone(direction);
   const Vec3 local = sample_cosine_hemisphere(point);
   const Vec3 ng = Frame::from_z(w).to_world(local);
   const float r = 0.5f * (box.max.x - box.min.x);
   const Vec3 p = box.center() + ng * (sphere.flip_normals ? -r : r);
   return {{offset_origin(p, ng, w), w},
           area_light().L * local.z,
-          local.z * inv_pi / area_,
+          uniform_cone_pdf(width_) * 4 * local.z / area_,
           {.p = p, .ng = ng, .ns = ng, .uv = {}}};
 }
 
@@ -141,11 +173,9 @@ Vec2 EmissionSquare::invert(Vec3 w, Vec3 p) const {
     case Kind::parallel:
       return position_of(p);
     case Kind::point:
-    case Kind::sphere:
-      return invert_uniform_sphere(w);
     case Kind::spot:
-      return invert_uniform_cone(frame_.to_local(w),
-                                 1 - std::get<SpotLight>(light_->variant()).cos_total);
+    case Kind::sphere:
+      return invert_uniform_cone(frame_.to_local(w), width_);
     case Kind::flat:
       return invert_side(frame_.to_local(w), area_light().two_sided);
     case Kind::bent:
@@ -157,17 +187,16 @@ Vec2 EmissionSquare::invert(Vec3 w, Vec3 p) const {
 float EmissionSquare::density(Vec3 p, Vec3 to_light, float distance) const {
   // All ways to find the point have the cosine at the surface and, for area lights, the one
   // at the light over the squared distance in common.
-  if (kind_ == Kind::point) return inv_4pi / sqr(distance);
   if (kind_ == Kind::parallel) {
     const Vec2 u = position_of(p);
     const bool is_in_square = u.x >= 0 && u.x < 1 && u.y >= 0 && u.y < 1;
     return is_in_square ? 1 / area_ : 0;
   }
-  if (const auto* spot = std::get_if<SpotLight>(&light_->variant())) {
-    const bool is_in_cone = dot(-to_light, spot->axis) >= spot->cos_total;
-    return is_in_cone ? uniform_cone_pdf(1 - spot->cos_total) / sqr(distance) : 0;
-  }
-  return area_ > 0 ? inv_pi / (area_ * (area_light().two_sided ? 2.0f : 1.0f)) : 0;
+  if (kind_ == Kind::flat || kind_ == Kind::bent)
+    return area_ > 0 ? inv_pi / (area_ * (area_light().two_sided ? 2.0f : 1.0f)) : 0;
+  if (!(one_minus_cos(frame_.to_local(-to_light)) <= width_)) return 0;
+  const float pdf = uniform_cone_pdf(width_);
+  return kind_ == Kind::sphere ? 4 * pdf / area_ : pdf / sqr(distance);
 }
 
 }  // namespace tyndall

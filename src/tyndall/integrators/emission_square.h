@@ -25,7 +25,8 @@ struct EmittedRay {
 /// go the same way: there it is which part of a box they shine on.
 class EmissionSquare {
  public:
-  /// Empty for environments. Parallel light shines on `box`, from beyond `scene_bounds`.
+  /// Empty for environments. Parallel light shines on `box`, from beyond `scene_bounds`;
+  /// so do points, spots and spheres that are far from it; an empty box: everywhere.
   /// The light must outlive the square.
   static std::optional<EmissionSquare> of(const Light& light, const Bounds3& box,
                                           const Bounds3& scene_bounds);
@@ -46,6 +47,8 @@ class EmissionSquare {
   EmissionSquare(const Light& light, Kind kind, const Frame& frame, float area)
       : light_(&light), kind_(kind), frame_(frame), area_(area) {}
 
+  EmissionSquare aimed(const Bounds3& box, Vec3 p, float radius) const;
+  Vec3 direction_in_cone(Vec2 u) const;
   EmittedRay emit_parallel(Vec2 position) const;
   Vec2 position_of(Vec3 p) const;
   EmittedRay emit_sphere(Vec2 direction, Vec2 point) const;
@@ -54,8 +57,10 @@ class EmissionSquare {
 
   const Light* light_;
   Kind kind_;
-  Frame frame_;  // z: the axis of a spot light, the normal of a flat one, towards parallel
-  float area_;   // of the light, or across parallel light
+  // z: the axis of the cone, the normal of a flat light, towards parallel light
+  Frame frame_;
+  float width_ = 2;   // one minus the cosine of the cone's half-angle
+  float area_;        // of the light, or across parallel light
   Vec3 center_{};     // of parallel light's box, as far along it as rays start
   float radius_ = 0;  // of the square around it
 };

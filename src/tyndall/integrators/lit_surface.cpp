@@ -25,10 +25,7 @@ Bounds3 bounds_of_interest(const Scene& scene) {
 using Squares = std::vector<std::optional<EmissionSquare>>;
 
 Squares squares_of(const Scene& scene) {
-  const bool is_parallel = std::ranges::any_of(scene.lights(), [](const Light& l) {
-    return l.is_infinite() && !l.is_environment();
-  });
-  const Bounds3 box = is_parallel ? bounds_of_interest(scene) : Bounds3{};
+  const Bounds3 box = bounds_of_interest(scene);
   Squares squares;
   for (const Light& light : scene.lights())
     squares.push_back(EmissionSquare::of(light, box, scene.bounds()));
