@@ -192,13 +192,16 @@ TEST(ConnectionBudget, IsCarefulWithHeavyTails) {
 
 TEST(ConnectionBudget, KnowsWhatLitSurfacesGain) {
   // Two techniques with densities p and q find f: alone, the second has squares f^2 / q,
-  // together f^2 / (p + q), of which connections, made n times, cost 1 / n of their own.
-  const double f = 3, p = 0.8, q = 0.2, n = 0.5;
-  const double share = p / (p + q), found = share * f / p;
-  const double alone = f * f / q;
-  const double together = sqr(q / (p + q) * f) / q + sqr(found) * p / n;
-  EXPECT_NEAR(p * double{ConnectionBudget::lit_gain(float(found), float(share), float(n))},
-              alone - together, 1e-4 * alone);
+  // together those of both with their shares, of which the first, made n times, has 1 / n.
+  const double f = 3, p = 0.8, q = 0.2;
+  for (const double n : {0.5, 1.0, 3.0}) {
+    const double tried = std::max(n, 1.0) * p;
+    const double share = tried / (tried + q), found = share * f / p;
+    const double alone = f * f / q;
+    const double together = sqr((1 - share) * f) / q + sqr(found) * p / n;
+    const float gain = ConnectionBudget::lit_gain(float(found), float(share), float(n));
+    EXPECT_NEAR(p * double{gain}, alone - together, 1e-4 * alone);
+  }
 }
 
 // Whether connections to lit surfaces pay that gain and cost so much of paths of

@@ -67,10 +67,10 @@ class ConnectionBudget {
   };
   /// How much more the square of what a path finds would be without a connection to a lit
   /// surface that is made `count` times, found `value`, and got the weight `share` of the
-  /// balance heuristic: what else finds the same path then does so alone.
+  /// balance heuristic, see TailCounts: what else finds the same path then does so alone.
   static float lit_gain(float value, float share, float count) {
     const float others = std::max(1 - share, 1e-6f);
-    return value * value * ((2 - share) / others - 1 / count);
+    return value * value * ((2 - share) / (others * std::max(count, 1.0f)) - 1 / count);
   }
   void record_path(Vec2i pixel, const Finished& path) const;
   /// A path without any connections ended.
@@ -142,6 +142,24 @@ class ConnectionBudget {
   PixelSums recent_;
   std::vector<std::array<float, efforts * depths>> counts_;
   std::vector<float> region_scales_;
+};
+
+/// How often the connections of one path are made: once each, where there is no budget.
+class ConnectionCounts {
+ public:
+  ConnectionCounts() = default;
+  /// The budget must outlive this.
+  ConnectionCounts(const ConnectionBudget& budget, Vec2i pixel)
+      : budget_(&budget), region_(budget.region(pixel)) {}
+
+  size_t region() const { return region_; }
+  float operator()(Effort effort, int depth) const {
+    return budget_ ? budget_->count(region_, effort, depth) : 1;
+  }
+
+ private:
+  const ConnectionBudget* budget_ = nullptr;
+  size_t region_ = 0;
 };
 
 }  // namespace tyndall

@@ -51,9 +51,15 @@ const DiffuseBsdf& diffuse(const SurfaceHit& hit) {
 }  // namespace
 
 void LitChain::push_front(float density) {
+  is_seen_from_leg = is_seen_from_leg && size < max_lit_surfaces;
   size = std::min(size + 1, max_lit_surfaces);
   for (int i = size - 1; i > 0; --i) edge[i] = edge[i - 1];
   edge[0] = density;
+}
+
+void LitChain::push_back(float density) {
+  is_seen_from_leg = false;
+  if (size < max_lit_surfaces) edge[size++] = density;
 }
 
 float diffuse_edge_density(Vec3 ng0, Vec3 ng1, Vec3 w, float distance) {

@@ -21,11 +21,11 @@ inline constexpr int max_lit_surfaces = 4;
 struct LitChain {
   std::array<float, max_lit_surfaces> edge{};
   int size = 0;
+  /// The last edge starts at a vertex in a medium, which a connection would put on a leg.
+  bool is_seen_from_leg = false;
 
   void push_front(float density);
-  void push_back(float density) {
-    if (size < max_lit_surfaces) edge[size++] = density;
-  }
+  void push_back(float density);
 };
 
 /// A surface point that a light shines on, by way of other surfaces or directly,

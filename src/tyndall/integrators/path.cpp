@@ -35,7 +35,7 @@ Path::Path(const Scene& scene, const PathRules& rules, const Ray& ray, Sampler& 
       medium_(scene.camera_medium()),
       pivots_(scene, tracking_.next_bits()) {
   start_.p = ray.o;
-  if (rules.budget) region_ = rules.budget->region(sampler.pixel());
+  if (rules.budget) counts_ = {*rules.budget, sampler.pixel()};
   if (rules.is_chromatic) hero_ = std::min(static_cast<int>(3 * sampler.next_1d()), 2);
 }
 
@@ -204,7 +204,7 @@ bool Path::survives_roulette() {
 float Path::survival(float carried) const {
   const WalkWorth* worth = rules_.worth;
   if (!worth || worth->is_empty()) return carried;
-  const float wanted = rules_.budget->relative(region_, carried) /
+  const float wanted = rules_.budget->relative(counts_.region(), carried) /
                        rules_.budget->relative(1) *
                        worth->survival(worth->place(ray_.o, ray_.d));
   return std::max(wanted, least_survival * std::min(carried, 1.0f));

@@ -103,6 +103,7 @@ class Path {
   Vec2 numbers_on(const Light& light);
   float light_probability(Vec3 p, size_t light) const;
   bool is_left_to_connections(size_t light);
+  TailCounts tail_counts(int vertices) const { return {&counts_, vertices}; }
   float direct_weight(const LightEnd& end);
   float hit_weight(size_t light, float light_pdf, float distance);
   float particle_ratio(const DirectionSample& s) const;
@@ -139,7 +140,7 @@ class Path {
   Rgb transmittance_to_light(const LitPoint& lit, const Medium* medium);
   LightEnd light_end(const LitPoint& lit) const;
   std::optional<LitView> look_at(const LitPoint& lit, const Vertex& x);
-  float lit_weight(const LitPoint& lit, float edge, const LitChain& beyond);
+  float lit_weight(const LitPoint& lit, int vertices, float edge, const LitChain& beyond);
   Rgb connect_lit(Leg& leg);  // from the leg
   Rgb connect_lit();          // from the vertex
   float edge_density(const LegStart& x, const ConnectionLeg& before, const SurfacePoint& y,
@@ -175,9 +176,9 @@ class Path {
   LegStart start_before_;                             // of leg_before_
   PathSample result_;
   float particle_ratio_ = 0;  // ParticleRatio of the vertices so far
-  size_t region_ = 0;         // of the budget
-  float spent_ = 0;           // on connections
-  float lit_share_ = 0;       // weight of the last connection to a lit surface
+  ConnectionCounts counts_;
+  float spent_ = 0;      // on connections
+  float lit_share_ = 0;  // weight of the last connection to a lit surface
   float lit_gain_ = 0, lit_spent_ = 0;
 
   // Where the walk left its first vertices, and what the path was worth until then.
@@ -193,7 +194,7 @@ class Path {
 template <typename Connect>
 void Path::spend(Effort effort, const Connect& connect) {
   const ConnectionBudget* budget = rules_.budget;
-  const float wanted = budget ? budget->count(region_, effort, depth_) : 1;
+  const float wanted = counts_(effort, depth_);
   const auto whole = static_cast<int>(wanted);
   const float rest = wanted - static_cast<float>(whole);
   const int count = whole + (rest > 0 && tracking_.next_1d() < rest ? 1 : 0);
@@ -208,7 +209,7 @@ void Path::spend(Effort effort, const Connect& connect) {
   }
   add(sum / wanted);
   if (!budget || !budget->is_recording()) return;
-  budget->record(region_, effort, depth_, found[0]);
+  budget->record(counts_.region(), effort, depth_, found[0]);
   spent_ += ConnectionBudget::cost(effort, count);
   if (effort == Effort::lit_from_leg || effort == Effort::lit_from_vertex) {
     lit_spent_ += ConnectionBudget::cost(effort, count);
@@ -216,7 +217,7 @@ void Path::spend(Effort effort, const Connect& connect) {
         ConnectionBudget::lit_gain(found[0], share, wanted) / std::min(wanted, 1.0f);
   }
   if (count < 2) return;
-  budget->record_pair(region_, effort, depth_, 0.5f * sqr(found[0] - found[1]));
+  budget->record_pair(counts_.region(), effort, depth_, 0.5f * sqr(found[0] - found[1]));
 }
 
 }  // namespace tyndall

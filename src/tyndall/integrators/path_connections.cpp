@@ -116,9 +116,10 @@ float Path::direct_weight(const LightEnd& end) {
     return balance_heuristic(end.probability * end.pdf, end.pdf_direction);
   const TailDensities densities =
       vertex_->is_in_medium()
-          ? tail_densities(*rules_.connections, *leg_before_, start_, *leg_, t_vertex_, end)
-          : surface_tail_densities(*rules_.connections, chain_, vertex_->p(), end,
-                                   abs_dot(vertex_->ng(), end.to_light));
+          ? tail_densities(*rules_.connections, tail_counts(depth_), *leg_before_, start_,
+                           *leg_, t_vertex_, end)
+          : surface_tail_densities(*rules_.connections, tail_counts(depth_), chain_,
+                                   vertex_->p(), end, abs_dot(vertex_->ng(), end.to_light));
   return densities.weight(densities.direct);
 }
 
@@ -135,10 +136,11 @@ float Path::hit_weight(size_t light, float light_pdf, float distance) {
   if (!rules_.connections)
     return balance_heuristic(end.pdf_direction, end.probability * end.pdf);
   const TailDensities densities =
-      start_.is_in_medium ? tail_densities(*rules_.connections, *leg_two_before_,
-                                           start_before_, *leg_before_, start_.t, end)
-                          : surface_tail_densities(*rules_.connections, chain_, start_.p,
-                                                   end, abs_dot(start_.ng, ray_.d));
+      start_.is_in_medium
+          ? tail_densities(*rules_.connections, tail_counts(depth_), *leg_two_before_,
+                           start_before_, *leg_before_, start_.t, end)
+          : surface_tail_densities(*rules_.connections, tail_counts(depth_), chain_,
+                                   start_.p, end, abs_dot(start_.ng, ray_.d));
   return densities.weight(densities.hit);
 }
 
@@ -182,7 +184,8 @@ Rgb Path::connect_at(Leg& leg, const DistanceSample& s, const Medium& medium,
   const Connection connection = connect_to(last, selected);
   if (is_black(connection.light)) return Rgb();
   const TailDensities densities =
-      tail_densities(*rules_.connections, *leg_before_, start_, *leg_, s.t, connection.end);
+      tail_densities(*rules_.connections, tail_counts(depth_ + 1), *leg_before_, start_,
+                     *leg_, s.t, connection.end);
   const Rgb value = transmittance_along(leg, s.t, tracking_) * medium.at(last.p()).sigma_s *
                     connection.light;
   return beta_ * value *

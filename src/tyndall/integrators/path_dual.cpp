@@ -104,10 +104,11 @@ float Path::weight_beyond(const DualStart& start, ConnectionLeg& next, float t,
   // Single connections and next event estimation leave the path to a dual one; only a walk
   // that hits the light makes it too.
   if (technique == &TailDensities::dual && end.pdf_direction == 0) return 1;
+  const int added = technique == &TailDensities::dual ? 2 : 1;
   const LegStart at_x =
       start_of_leg(start.x, start.t, start.x.pdf(start.direction.w), false);
-  const TailDensities densities =
-      tail_densities(*rules_.connections, *leg_, at_x, next, t, end);
+  const TailDensities densities = tail_densities(
+      *rules_.connections, tail_counts(depth_ + added), *leg_, at_x, next, t, end);
   return densities.weight(densities.*technique);
 }
 

@@ -72,15 +72,18 @@ std::optional<Path::LitView> Path::look_at(const LitPoint& lit, const Vertex& x)
 
 // Of the connection between x and the lit point that it sees; `beyond` are the edges of the
 // walk to x.
-float Path::lit_weight(const LitPoint& lit, float edge, const LitChain& beyond) {
+float Path::lit_weight(const LitPoint& lit, int vertices, float edge,
+                       const LitChain& beyond) {
   LitChain chain = lit.chain;
   for (int i = 0; i < chain.size; ++i)
     chain.edge[i] *= rules_.connections->filling_transmittance(lit.edge[i + 1].length);
   chain.push_back(edge);
+  const bool is_whole = chain.size + beyond.size <= max_lit_surfaces;
   for (int i = 0; i < beyond.size; ++i) chain.push_back(beyond.edge[i]);
-  const TailDensities densities =
-      surface_tail_densities(*rules_.connections, chain, lit.first.point.p, light_end(lit),
-                             abs_dot(lit.first.point.ng, lit.to_light()));
+  chain.is_seen_from_leg = is_whole && beyond.is_seen_from_leg;
+  const TailDensities densities = surface_tail_densities(
+      *rules_.connections, tail_counts(vertices), chain, lit.first.point.p, light_end(lit),
+      abs_dot(lit.first.point.ng, lit.to_light()));
   return lit_share_ = densities.weight(densities.lit[lit.surfaces - 1]);
 }
 
@@ -103,8 +106,9 @@ Rgb Path::connect_lit(Leg& leg) {
                      leg_->proxy().collision_pdf_t(s->t) / s->pdf_t;
   const Rgb scattered = transmittance_along(leg, s->t, tracking_) *
                         medium->at(x.p()).sigma_s * x.eval(view->w);
-  return record(*lit,
-                beta_ * scattered * view->light * (lit_weight(*lit, edge, {}) / s->pdf_t));
+  const float weight =
+      lit_weight(*lit, depth_ + 1 + lit->surfaces, edge, {.is_seen_from_leg = true});
+  return record(*lit, beta_ * scattered * view->light * (weight / s->pdf_t));
 }
 
 Rgb Path::connect_lit() {
@@ -115,8 +119,8 @@ Rgb Path::connect_lit() {
   const float edge =
       edge_density(start_of_leg(*vertex_, t_vertex_, vertex_->pdf(view->w), false), *leg_,
                    lit->hit.point, view->w, view->distance);
-  return record(
-      *lit, beta_ * vertex_->eval(view->w) * view->light * lit_weight(*lit, edge, chain_));
+  return record(*lit, beta_ * vertex_->eval(view->w) * view->light *
+                          lit_weight(*lit, depth_ + lit->surfaces, edge, chain_));
 }
 
 // The density with which the walk goes from x, at x.t of the leg `before`, to the surface
@@ -138,7 +142,8 @@ float Path::edge_density(const LegStart& x, const ConnectionLeg& before,
 LitChain Path::chain_to(const Vertex& y, float distance) const {
   if (!rules_.connections || !rules_.connections->lit_surfaces()) return {};
   if (start_.is_specular || !y.can_be_lit()) return {};
-  LitChain chain = start_.can_be_lit ? chain_ : LitChain{};
+  LitChain chain =
+      start_.can_be_lit ? chain_ : LitChain{.is_seen_from_leg = start_.is_in_medium};
   chain.push_front(edge_density(start_, *leg_before_, y.point(), ray_.d, distance));
   return chain;
 }

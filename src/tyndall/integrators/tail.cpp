@@ -46,9 +46,9 @@ LegStart start_of_leg(const Vertex& vertex, float t, float pdf_direction,
           .medium = vertex.medium()};
 }
 
-TailDensities tail_densities(const ConnectionContext& context, ConnectionLeg& before,
-                             const LegStart& x, ConnectionLeg& leg, float t,
-                             const LightEnd& end) {
+TailDensities tail_densities(const ConnectionContext& context, const TailCounts& counts,
+                             ConnectionLeg& before, const LegStart& x, ConnectionLeg& leg,
+                             float t, const LightEnd& end) {
   const float collision = leg.proxy().collision_pdf_t(t);
   TailDensities densities{.direct = collision * end.probability * end.pdf,
                           .hit = collision * end.pdf_direction};
@@ -56,35 +56,43 @@ TailDensities tail_densities(const ConnectionContext& context, ConnectionLeg& be
     if (!leg.is_forced(end.light)) return densities;
     const ConnectionLeg::Forced* forced = leg.forced(end.light);
     densities.direct = 0;
-    densities.forced =
-        forced ? forced->pdf_t(t) * leg.forced_light_probability(end.light) * end.pdf : 0;
+    densities.forced = forced ? forced->pdf_t(t) * leg.forced_light_probability(end.light) *
+                                    end.pdf * counts(Effort::forced, 1)
+                              : 0;
     return densities;
   }
   const float last = leg.single(end.light)->pdf_t(t) * end.pdf;
   densities.direct = 0;
   const float dual = dual_density(context, before, x, leg, end.light);
   if (!(dual > 0)) {
-    densities.single = last * leg.light_probability(end.light) * x.pdf_direction;
-    densities.glow = last * glow_density(context, x, leg, end.light);
+    densities.single = last * leg.light_probability(end.light) * x.pdf_direction *
+                       counts(Effort::single, 1);
+    densities.glow =
+        last * glow_density(context, x, leg, end.light) * counts(Effort::glow, 1);
     densities.hit *= x.pdf_direction;
     return densities;
   }
-  densities.dual = dual * last;
+  densities.dual = dual * last * counts(Effort::dual, 2);
   // The walk reaches x otherwise.
   densities.hit *= before.proxy().collision_pdf_t(x.t) * x.pdf_direction;
   return densities;
 }
 
 TailDensities surface_tail_densities(const ConnectionContext& context,
-                                     const LitChain& chain, Vec3 p, const LightEnd& end,
-                                     float cos_light) {
+                                     const TailCounts& counts, const LitChain& chain,
+                                     Vec3 p, const LightEnd& end, float cos_light) {
   TailDensities densities{.direct = end.probability * end.pdf, .hit = end.pdf_direction};
   if (chain.size == 0) return densities;
   // The density of a connection across an edge lacks that edge, and has that of the walk
   // out of the light instead; all others are the same both ways.
   const std::array<float, max_lit_surfaces> first = context.lit_surfaces()->densities(
       end.light, p, end.to_light, end.distance, cos_light);
-  for (int i = 0; i < chain.size; ++i) densities.lit[i] = first[i] / chain.edge[i];
+  for (int i = 0; i < chain.size; ++i) {
+    const bool is_from_leg = chain.is_seen_from_leg && i == chain.size - 1;
+    densities.lit[i] = first[i] / chain.edge[i] *
+                       (is_from_leg ? counts(Effort::lit_from_leg, i + 2)
+                                    : counts(Effort::lit_from_vertex, i + 1));
+  }
   return densities;
 }
 

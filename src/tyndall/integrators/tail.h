@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 
+#include "tyndall/integrators/connection_budget.h"
 #include "tyndall/integrators/connection_leg.h"
 #include "tyndall/integrators/vertex.h"
 
@@ -20,7 +22,8 @@ struct LightEnd {
 };
 
 /// Densities of the last part of a path, up to a common factor: one for each technique that
-/// makes it. Their shares are the weights of the balance heuristic. They come from proxies,
+/// makes it, times how often that is tried. Their shares are the weights of the balance
+/// heuristic [Veach95]. They come from proxies,
 /// and are functions of the path's vertices and of the light points alone, so that the
 /// weights of a path sum to one whatever made it.
 ///
@@ -45,19 +48,31 @@ struct TailDensities {
   }
 };
 
+/// How often connections make a path of so many scattering vertices.
+struct TailCounts {
+  const ConnectionCounts* counts;
+  int vertices;
+
+  /// Of those that add the last `added` vertices. Those left to chance count as one: were
+  /// their shares as small as their chances, what walks find near lamps would vary more.
+  float operator()(Effort effort, int added) const {
+    return std::max((*counts)(effort, vertices - added), 1.0f);
+  }
+};
+
 /// The start of a leg at a vertex that stands at distance t of the leg before.
 LegStart start_of_leg(const Vertex& vertex, float t, float pdf_direction, bool is_specular);
 
 /// A path whose last vertex lies in a medium: `before` (leg to x), x, `leg` (from x), and
 /// the last vertex at distance t of `leg`.
-TailDensities tail_densities(const ConnectionContext& context, ConnectionLeg& before,
-                             const LegStart& x, ConnectionLeg& leg, float t,
-                             const LightEnd& end);
+TailDensities tail_densities(const ConnectionContext& context, const TailCounts& counts,
+                             ConnectionLeg& before, const LegStart& x, ConnectionLeg& leg,
+                             float t, const LightEnd& end);
 
 /// A path whose last vertex `p` lies on a surface that sees the light under an angle of
 /// cosine `cos_light`; `chain` holds the edges of the walk to that surface.
 TailDensities surface_tail_densities(const ConnectionContext& context,
-                                     const LitChain& chain, Vec3 p, const LightEnd& end,
-                                     float cos_light);
+                                     const TailCounts& counts, const LitChain& chain,
+                                     Vec3 p, const LightEnd& end, float cos_light);
 
 }  // namespace tyndall
