@@ -57,6 +57,31 @@ TEST(LearnedSquaresTest, VarianceFallsAndTheMeanStays) {
   EXPECT_LT(relative_variance(squares), 0.5);
 }
 
+// As long as nothing was found in a part, it is sampled like the whole; then by what was.
+TEST(LearnedSquaresTest, PartsStartFromTheWhole) {
+  const std::array<float, 2> weights{1, 1};
+  LearnedSquares whole(weights, megabyte);
+  learn(whole, 50'000, 1);
+  LearnedSquares part(weights, 8192);
+  EXPECT_LT(part.resolution(), whole.resolution());
+  part.update(whole);
+  EXPECT_LT(relative_variance(part), 0.5);
+
+  const auto elsewhere = [](const SquaresSample& s) {
+    return s.index == 0 && s.p.x > 0.75f ? 1 / s.density : 0;
+  };
+  RandomStream random(2);
+  for (int i = 0; i < 20'000; ++i) {
+    const float u = random.next_1d();
+    const SquaresSample s = part.sample(u, random.next_2d());
+    part.record(s, elsewhere(s));
+  }
+  part.update(whole);
+  EXPECT_GT(part.probability(0), 0.8f);
+  EXPECT_GT(part.density(0, {0.9f, 0.5f}), 2.5f);
+  EXPECT_GT(part.density(1, {0.1f, 0.2f}), 0);
+}
+
 TEST(LearnedSquaresTest, SamplesFollowTheirDensity) {
   const std::array<float, 2> weights{1, 1};
   LearnedSquares squares(weights, megabyte);

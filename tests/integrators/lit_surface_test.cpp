@@ -152,20 +152,23 @@ float expected_base(const std::string& lamp, const Light& light, const LitPoint&
 // What sample() says of a direct walk is what densities() says of its first surface.
 TEST_P(LitSurfaceTest, DensitiesAreThoseOfTheSamples) {
   const Scene scene(lit_room(GetParam()));
-  LitSurfaceSampling sampling(scene, 3);
+  LitSurfaceSampling sampling(scene, 3, 2);
   RandomStream random(5);
   for (int pass = 0; pass < 2; ++pass) {
     for (int i = 0; i < 2000; ++i) {
+      const size_t place = i % 2;
       const float u = random.next_1d();
       const Vec2 u_point = random.next_2d();
       const std::optional<LitPoint> lit =
-          sampling.sample(u, u_point, random.next_2d(), random);
+          sampling.sample(place, u, u_point, random.next_2d(), random);
       if (!lit) continue;
-      sampling.record(*lit, luminance(lit->flux));
+      const bool is_seen = place == 0 || lit->hit.point.p.x > 0;
+      sampling.record(place, *lit, is_seen ? luminance(lit->flux) : 0);
       const float distance = lit->edge[0].length;
       const float cosine = abs_dot(lit->first.point.ng, lit->to_light());
-      const std::array<float, max_lit_surfaces> densities = sampling.densities(
-          lit->light, lit->first.point.p, lit->to_light(), distance, cosine);
+      const std::array<float, max_lit_surfaces> densities =
+          sampling.densities({place, place, place}, lit->light, lit->first.point.p,
+                             lit->to_light(), distance, cosine);
       if (is_outside(GetParam()) && lit->surfaces > 1) continue;  // flux has reflectances
       const float base = expected_base(GetParam(), scene.lights()[0], *lit);
       const float expected = lit->choice.density * base * cosine;
@@ -189,7 +192,7 @@ TEST_P(LitSurfaceTest, FindsSurfacesHoweverFarTheLamp) {
   for (int i = 0; i < 1000; ++i) {
     const float u = random.next_1d();
     const Vec2 u_point = random.next_2d();
-    found += sampling.sample(u, u_point, random.next_2d(), random) ? 1 : 0;
+    found += sampling.sample(0, u, u_point, random.next_2d(), random) ? 1 : 0;
   }
   EXPECT_GT(found, 200);
 }
@@ -204,7 +207,7 @@ TEST(LitSurface, WalksFromTheLight) {
     const float u = random.next_1d();
     const Vec2 u_point = random.next_2d();
     const std::optional<LitPoint> lit =
-        sampling.sample(u, u_point, random.next_2d(), random);
+        sampling.sample(0, u, u_point, random.next_2d(), random);
     if (!lit) continue;
     longest = std::max(longest, lit->surfaces);
     EXPECT_EQ(lit->chain.size, lit->surfaces - 1);

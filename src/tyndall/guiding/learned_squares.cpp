@@ -13,6 +13,8 @@ namespace {
 constexpr int max_resolution = 32;
 // The share of samples that ignores what was learned: the price of being wrong.
 constexpr float base_share = 0.2f;
+// So many samples' worth of belief that a part is like the whole.
+constexpr double prior_records = 16;
 // Recorded squares are kept in these units.
 constexpr double unit = 1e-6, largest = 1e4;
 
@@ -35,8 +37,7 @@ LearnedSquares::LearnedSquares(std::span<const float> weights, size_t max_bytes)
   while (resolution_ > 1 &&
          weights.size() * cell_bytes * static_cast<size_t>(sqr(resolution_)) > max_bytes)
     resolution_ /= 2;
-  const size_t cells = weights.size() * static_cast<size_t>(sqr(resolution_));
-  moments_ = std::make_unique<std::atomic<int64_t>[]>(cells);
+  moments_ = std::make_unique<std::atomic<int64_t>[]>(cells() + 1);
 }
 
 SquaresSample LearnedSquares::sample(float u_index, Vec2 u) const {
@@ -48,6 +49,10 @@ SquaresSample LearnedSquares::sample(float u_index, Vec2 u) const {
 
 float LearnedSquares::density(size_t index, Vec2 p) const {
   return probability(index) * (learned_.empty() ? 1 : learned_[index].pdf(p));
+}
+
+size_t LearnedSquares::cells() const {
+  return squares() * static_cast<size_t>(sqr(resolution_));
 }
 
 size_t LearnedSquares::cell(size_t index, Vec2 p) const {
@@ -65,28 +70,57 @@ void LearnedSquares::record(const SquaresSample& sample, float value) const {
   const double moment =
       sqr(double{value}) * double{sample.density} / double{base_density(sample.index)};
   if (!(moment > 0)) return;
+  add_relaxed(moments_[cells()], 1);
   add_relaxed(moments_[cell(sample.index, sample.p)],
               static_cast<int64_t>(std::min(moment, largest) / unit));
 }
 
+// Of a cell of the square cut more coarsely.
+double LearnedSquares::moment(size_t index, int x, int y, int resolution) const {
+  const int n = resolution_ / resolution;
+  int64_t sum = 0;
+  for (int j = y * n; j < (y + 1) * n; ++j)
+    for (int i = x * n; i < (x + 1) * n; ++i)
+      sum += moments_[index * static_cast<size_t>(sqr(resolution_)) +
+                      static_cast<size_t>(j * resolution_ + i)];
+  return static_cast<double>(sum);
+}
+
+double LearnedSquares::total_moment() const {
+  double sum = 0;
+  for (size_t i = 0; i < cells(); ++i) sum += static_cast<double>(moments_[i].load());
+  return sum;
+}
+
+// What turns moments of the whole into those of `prior_records` more samples.
+double LearnedSquares::scale_of(const LearnedSquares& whole) const {
+  const auto records = static_cast<double>(moments_[cells()].load());
+  const double here = total_moment(), there = whole.total_moment();
+  return here > 0 && there > 0 ? prior_records / records * here / there : 1;
+}
+
 // Per cell, what its probability should be in proportion to.
-std::vector<float> LearnedSquares::roots(size_t index) const {
-  const auto cells = static_cast<size_t>(sqr(resolution_));
-  std::vector<float> roots(cells);
+std::vector<float> LearnedSquares::roots(size_t index, const LearnedSquares* whole,
+                                         double scale) const {
   const double base = double{base_density(index)};
-  for (size_t i = 0; i < cells; ++i)
-    roots[i] = static_cast<float>(
-        std::sqrt(base * static_cast<double>(moments_[index * cells + i].load())));
+  std::vector<float> roots;
+  for (int y = 0; y < resolution_; ++y)
+    for (int x = 0; x < resolution_; ++x) {
+      double sum = moment(index, x, y, resolution_);
+      if (whole) sum += scale * whole->moment(index, x, y, resolution_);
+      roots.push_back(static_cast<float>(std::sqrt(base * sum)));
+    }
   return roots;
 }
 
-void LearnedSquares::update() {
+void LearnedSquares::learn(const LearnedSquares* whole) {
   const size_t n = squares();
+  const double scale = whole ? scale_of(*whole) : 0;
   std::vector<std::vector<float>> values(n);
   std::vector<double> totals(n);
   double total = 0;
   for (size_t i = 0; i < n; ++i) {
-    const std::vector<float> raw = roots(i);
+    const std::vector<float> raw = roots(i, whole, scale);
     values[i].resize(raw.size());
     for (int y = 0; y < resolution_; ++y)
       for (int x = 0; x < resolution_; ++x)
@@ -112,8 +146,7 @@ void LearnedSquares::update() {
 }
 
 size_t LearnedSquares::memory() const {
-  const size_t cells = squares() * static_cast<size_t>(sqr(resolution_));
-  return cells * (sizeof(int64_t) + (learned_.empty() ? 0 : 2 * sizeof(float)));
+  return cells() * (sizeof(int64_t) + (learned_.empty() ? 0 : 2 * sizeof(float)));
 }
 
 }  // namespace tyndall

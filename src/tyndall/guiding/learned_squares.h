@@ -42,21 +42,30 @@ class LearnedSquares {
   /// typical. Larger ones than 100 count as 100: one firefly must not decide.
   void record(const SquaresSample& sample, float value) const;
   /// Samples from what was recorded so far.
-  void update();
+  void update() { learn(nullptr); }
+  /// The same for a part of what `whole` records: as long as little was found here, it is
+  /// taken to be alike. `whole` has the same weights, and cells that are no larger.
+  void update(const LearnedSquares& whole) { learn(&whole); }
 
   size_t squares() const { return base_.size(); }
   int resolution() const { return resolution_; }  ///< cells per side of a square
   size_t memory() const;                          ///< [bytes]
 
  private:
+  size_t cells() const;
   size_t cell(size_t index, Vec2 p) const;
-  std::vector<float> roots(size_t index) const;
+  void learn(const LearnedSquares* whole);
+  double scale_of(const LearnedSquares& whole) const;
+  double moment(size_t index, int x, int y, int resolution) const;
+  double total_moment() const;
+  std::vector<float> roots(size_t index, const LearnedSquares* whole, double scale) const;
   float base_density(size_t index) const { return base_.probability(index); }
 
   DiscreteDistribution base_, chosen_;
   std::vector<PiecewiseConstant2D> learned_;  // of each square; empty before update()
   int resolution_;
-  std::unique_ptr<std::atomic<int64_t>[]> moments_;  // of each cell
+  // Of each cell; the last: how many samples found something.
+  std::unique_ptr<std::atomic<int64_t>[]> moments_;
 };
 
 }  // namespace tyndall

@@ -36,6 +36,7 @@ constexpr float first_count_first = 2, first_count_later = 1;
 // Regions, across and down. Squares are weighed by the radiance of a region, which must be
 // known much better than a few paths tell it: the fewer, the lower it would seem to vary.
 constexpr int max_size = 8;
+static_assert(max_size * max_size == max_regions);
 
 // What a region has not seen yet is believed to be as elsewhere: so many records of it.
 constexpr double prior_paths = 16, prior_records = 32;

@@ -15,6 +15,9 @@ namespace tyndall {
 /// What a path can spend rays on besides walking.
 enum class Effort { single, dual, lit_from_leg, lit_from_vertex, glow, forced };
 
+/// The most regions that a budget divides a picture into, and what lit_place() has of it.
+inline constexpr size_t max_regions = 64, lit_places = 1 + 2 * max_regions;
+
 /// How often each connection is made, by kind, by how far along the path and by region of
 /// the picture: as often as its variance is worth its rays, by measurement on the render's
 /// first samples. What counts is the variance relative to the squared radiance of the
@@ -153,6 +156,13 @@ class ConnectionCounts {
       : budget_(&budget), region_(budget.region(pixel)) {}
 
   size_t region() const { return region_; }
+  /// Number of the place that a connection to a lit surface is made from: a region, for
+  /// those from the first leg, and for those from the vertex at its end; zero for all
+  /// others.
+  size_t lit_place(Effort effort, int depth) const {
+    const bool is_from_leg = effort == Effort::lit_from_leg;
+    return depth == (is_from_leg ? 0 : 1) ? 1 + 2 * region_ + (is_from_leg ? 0 : 1) : 0;
+  }
   float operator()(Effort effort, int depth) const {
     return budget_ ? budget_->count(region_, effort, depth) : 1;
   }

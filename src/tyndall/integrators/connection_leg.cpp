@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tyndall/integrators/connection_budget.h"
 #include "tyndall/math/vector_clones.h"
 
 namespace tyndall {
@@ -49,7 +50,7 @@ ConnectionContext::ConnectionContext(const Scene& scene, const ConnectionSetting
   const bool may_foresee = visibility_ && settings.far_visibility;
   for (size_t i = 0; may_foresee && i < scene.lights().size(); ++i)
     foresees_far_lights_ |= scene.lights()[i].is_infinite() && visibility_->knows(i);
-  if (settings.lit_surfaces > 0) lit_.emplace(scene, settings.lit_surfaces);
+  if (settings.lit_surfaces > 0) lit_.emplace(scene, settings.lit_surfaces, lit_places);
   if (settings.direction) guiding_ = std::make_unique<DirectionGuiding>(scene, settings);
   const Medium* filling = scene.filling_medium();
   if (filling && filling->is_homogeneous())

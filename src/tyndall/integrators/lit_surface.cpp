@@ -13,7 +13,9 @@
 namespace tyndall {
 namespace {
 
-constexpr size_t max_bytes = size_t{16} << 20;
+constexpr size_t max_bytes = size_t{16} << 20, max_bytes_of_places = size_t{32} << 20;
+// With more, not even the coarsest squares of all places are worth their memory.
+constexpr size_t max_squares_of_places = 256;
 
 // What matters of the scene: where media scatter light that gets to the camera.
 Bounds3 bounds_of_interest(const Scene& scene) {
@@ -66,12 +68,27 @@ float diffuse_edge_density(Vec3 ng0, Vec3 ng1, Vec3 w, float distance) {
   return abs_dot(ng0, w) * abs_dot(ng1, w) * inv_pi / sqr(distance);
 }
 
-LitSurfaceSampling::LitSurfaceSampling(const Scene& scene, int max_surfaces)
+LitSurfaceSampling::LitSurfaceSampling(const Scene& scene, int max_surfaces, size_t places)
     : scene_(&scene),
       max_surfaces_(max_surfaces),
       squares_(squares_of(scene)),
-      learned_(powers(scene, squares_, max_surfaces), max_bytes) {
-  assert(1 <= max_surfaces && max_surfaces <= max_lit_surfaces);
+      whole_(powers(scene, squares_, max_surfaces), max_bytes) {
+  assert(1 <= max_surfaces && max_surfaces <= max_lit_surfaces && places > 0);
+  if (places == 1 || whole_.squares() > max_squares_of_places) return;
+  for (size_t i = 0; i < places; ++i)
+    places_.emplace_back(powers(scene, squares_, max_surfaces),
+                         max_bytes_of_places / places);
+}
+
+void LitSurfaceSampling::update() {
+  whole_.update();
+  for (LearnedSquares& place : places_) place.update(whole_);
+}
+
+size_t LitSurfaceSampling::memory() const {
+  size_t bytes = whole_.memory();
+  for (const LearnedSquares& place : places_) bytes += place.memory();
+  return bytes;
 }
 
 bool LitSurfaceSampling::finds(const Surface& surface) {
@@ -79,16 +96,16 @@ bool LitSurfaceSampling::finds(const Surface& surface) {
   return material && !is_black(material->reflectance);
 }
 
-std::optional<LitPoint> LitSurfaceSampling::sample(float u_choice, Vec2 u_point,
-                                                   Vec2 u_direction,
+std::optional<LitPoint> LitSurfaceSampling::sample(size_t place, float u_choice,
+                                                   Vec2 u_point, Vec2 u_direction,
                                                    RandomStream& rng) const {
-  SquaresSample choice = learned_.sample(u_choice, u_direction);
+  SquaresSample choice = at(place).sample(u_choice, u_direction);
   const size_t light = choice.index / max_surfaces_;
   const int surfaces = static_cast<int>(choice.index % max_surfaces_) + 1;
   const std::optional<EmissionSquare>& square = squares_[light];
   if (!square || !(choice.density > 0)) return std::nullopt;
   if (!square->is_invertible())  // directions are all alike
-    choice = {choice.index, u_direction, learned_.probability(choice.index)};
+    choice = {choice.index, u_direction, at(place).probability(choice.index)};
   const EmittedRay emitted = square->emit(choice.p, u_point);
   if (!(emitted.pdf > 0) || is_black(emitted.emission)) return std::nullopt;
   LitPoint lit{.hit = {},
@@ -137,7 +154,8 @@ bool LitSurfaceSampling::bounce(LitPoint& lit, RandomStream& rng) const {
   return true;
 }
 
-std::array<float, max_lit_surfaces> LitSurfaceSampling::densities(size_t light, Vec3 p,
+std::array<float, max_lit_surfaces> LitSurfaceSampling::densities(const Places& places,
+                                                                  size_t light, Vec3 p,
                                                                   Vec3 to_light,
                                                                   float distance,
                                                                   float cos_light) const {
@@ -150,8 +168,9 @@ std::array<float, max_lit_surfaces> LitSurfaceSampling::densities(size_t light, 
   const Vec2 u = is_learned ? square->invert(-to_light, p) : Vec2{};
   for (int i = 0; i < max_surfaces_; ++i) {
     const size_t index = light * max_surfaces_ + static_cast<size_t>(i);
+    const LearnedSquares& learned = at(places[i]);
     densities[i] =
-        base * (is_learned ? learned_.density(index, u) : learned_.probability(index));
+        base * (is_learned ? learned.density(index, u) : learned.probability(index));
   }
   return densities;
 }

@@ -58,44 +58,55 @@ struct LitPoint {
 /// Walks out of lights, but for environments, over surfaces that reflect diffusely, in
 /// directions that were worth most so far: the light, the number of surfaces and the
 /// direction are chosen by what earlier points have contributed, at first by power and
-/// evenly into the light's cone; from area lights by area and cosine.
+/// evenly into the light's cone; from area lights by area and cosine. What is seen differs:
+/// it is learned for each of some places that connections start from.
 ///
 /// record() may be called from many threads; update() from one, while nothing else is
 /// called.
 class LitSurfaceSampling {
  public:
   /// `max_surfaces` in [1, max_lit_surfaces] bounds the walks.
-  LitSurfaceSampling(const Scene& scene, int max_surfaces);
+  /// Places are numbered from zero; at least one.
+  LitSurfaceSampling(const Scene& scene, int max_surfaces, size_t places = 1);
 
   /// Whether surfaces like this are found: those that reflect light diffusely.
   static bool finds(const Surface& surface);
   /// Empty if the walk meets no surface that reflects light diffusely.
-  std::optional<LitPoint> sample(float u_choice, Vec2 u_point, Vec2 u_direction,
-                                 RandomStream& rng) const;
+  std::optional<LitPoint> sample(size_t place, float u_choice, Vec2 u_point,
+                                 Vec2 u_direction, RandomStream& rng) const;
 
+  /// Where walks over 1, 2 ... surfaces are connected to from.
+  using Places = std::array<size_t, max_lit_surfaces>;
   /// The densities of the first surface of walks over 1, 2 ... surfaces, for a point `p` at
   /// `distance` from the light, which lies in the unit direction `to_light` under an angle
   /// of cosine `cos_light`: w.r.t. area, up to the factor that turns the solid angle of
   /// next event estimation from there into the light's area (one if it is a delta).
-  std::array<float, max_lit_surfaces> densities(size_t light, Vec3 p, Vec3 to_light,
-                                                float distance, float cos_light) const;
+  std::array<float, max_lit_surfaces> densities(const Places& places, size_t light, Vec3 p,
+                                                Vec3 to_light, float distance,
+                                                float cos_light) const;
 
   /// The point has added `value` to a pixel, in units of the mean pixel.
-  void record(const LitPoint& lit, float value) const {
-    learned_.record(lit.choice, value);
+  void record(size_t place, const LitPoint& lit, float value) const {
+    whole_.record(lit.choice, value);
+    if (!places_.empty()) places_[place].record(lit.choice, value);
   }
   /// Learns from what was recorded so far.
-  void update() { learned_.update(); }
-  size_t memory() const { return learned_.memory(); }  ///< [bytes]
+  void update();
+  size_t memory() const;  ///< [bytes]
 
  private:
+  const LearnedSquares& at(size_t place) const {
+    return places_.empty() ? whole_ : places_[place];
+  }
   bool bounce(LitPoint& lit, RandomStream& rng) const;
   bool go(LitPoint& lit, const Ray& ray) const;
 
   const Scene* scene_;
   int max_surfaces_;
   std::vector<std::optional<EmissionSquare>> squares_;  // none for environments
-  LearnedSquares learned_;  // of each light in turn, for each number of surfaces
+  // Squares of each light in turn, for each number of surfaces.
+  LearnedSquares whole_;
+  std::vector<LearnedSquares> places_;  // empty if there is one, or too much to learn
 };
 
 /// Density with which a walk goes from one diffuse surface to another, w.r.t. the area of

@@ -135,8 +135,8 @@ class Path {
     float distance;
     Rgb light;  // that arrives at x from it, over the density of the lit point
   };
-  std::optional<LitPoint> sample_lit_point();
-  Rgb record(const LitPoint& lit, Rgb value) const;
+  std::optional<LitPoint> sample_lit_point(size_t place);
+  Rgb record(size_t place, const LitPoint& lit, Rgb value) const;
   Rgb transmittance_to_light(const LitPoint& lit, const Medium* medium);
   LightEnd light_end(const LitPoint& lit) const;
   std::optional<LitView> look_at(const LitPoint& lit, const Vertex& x);

@@ -4,18 +4,18 @@
 
 namespace tyndall {
 
-std::optional<LitPoint> Path::sample_lit_point() {
+std::optional<LitPoint> Path::sample_lit_point(size_t place) {
   const float u_choice = sampler_.next_1d();
   const Vec2 u_point = sampler_.next_2d();
-  return rules_.connections->lit_surfaces()->sample(u_choice, u_point, sampler_.next_2d(),
-                                                    tracking_);
+  return rules_.connections->lit_surfaces()->sample(place, u_choice, u_point,
+                                                    sampler_.next_2d(), tracking_);
 }
 
 // Tells which walks out of lights are worth most.
-Rgb Path::record(const LitPoint& lit, Rgb value) const {
+Rgb Path::record(size_t place, const LitPoint& lit, Rgb value) const {
   if (rules_.budget)
     rules_.connections->lit_surfaces()->record(
-        lit, rules_.budget->relative(luminance(value) / average(spectral_)));
+        place, lit, rules_.budget->relative(luminance(value) / average(spectral_)));
   return value;
 }
 
@@ -88,7 +88,8 @@ float Path::lit_weight(const LitPoint& lit, int vertices, float edge,
 }
 
 Rgb Path::connect_lit(Leg& leg) {
-  const std::optional<LitPoint> lit = sample_lit_point();
+  const size_t place = counts_.lit_place(Effort::lit_from_leg, depth_);
+  const std::optional<LitPoint> lit = sample_lit_point(place);
   const float u = sampler_.next_1d();
   if (!lit || !counts(1, lit->surfaces)) return Rgb();
   const SurfacePoint& y = lit->hit.point;
@@ -108,19 +109,21 @@ Rgb Path::connect_lit(Leg& leg) {
                         medium->at(x.p()).sigma_s * x.eval(view->w);
   const float weight =
       lit_weight(*lit, depth_ + 1 + lit->surfaces, edge, {.is_seen_from_leg = true});
-  return record(*lit, beta_ * scattered * view->light * (weight / s->pdf_t));
+  return record(place, *lit, beta_ * scattered * view->light * (weight / s->pdf_t));
 }
 
 Rgb Path::connect_lit() {
-  const std::optional<LitPoint> lit = sample_lit_point();
+  const size_t place = counts_.lit_place(Effort::lit_from_vertex, depth_);
+  const std::optional<LitPoint> lit = sample_lit_point(place);
   if (!lit || !counts(0, lit->surfaces)) return Rgb();
   const std::optional<LitView> view = look_at(*lit, *vertex_);
   if (!view || is_black(view->light)) return Rgb();
   const float edge =
       edge_density(start_of_leg(*vertex_, t_vertex_, vertex_->pdf(view->w), false), *leg_,
                    lit->hit.point, view->w, view->distance);
-  return record(*lit, beta_ * vertex_->eval(view->w) * view->light *
-                          lit_weight(*lit, depth_ + lit->surfaces, edge, chain_));
+  return record(place, *lit,
+                beta_ * vertex_->eval(view->w) * view->light *
+                    lit_weight(*lit, depth_ + lit->surfaces, edge, chain_));
 }
 
 // The density with which the walk goes from x, at x.t of the leg `before`, to the surface

@@ -85,14 +85,17 @@ TailDensities surface_tail_densities(const ConnectionContext& context,
   if (chain.size == 0) return densities;
   // The density of a connection across an edge lacks that edge, and has that of the walk
   // out of the light instead; all others are the same both ways.
-  const std::array<float, max_lit_surfaces> first = context.lit_surfaces()->densities(
-      end.light, p, end.to_light, end.distance, cos_light);
+  LitSurfaceSampling::Places places{};
   for (int i = 0; i < chain.size; ++i) {
     const bool is_from_leg = chain.is_seen_from_leg && i == chain.size - 1;
-    densities.lit[i] = first[i] / chain.edge[i] *
-                       (is_from_leg ? counts(Effort::lit_from_leg, i + 2)
-                                    : counts(Effort::lit_from_vertex, i + 1));
+    const Effort effort = is_from_leg ? Effort::lit_from_leg : Effort::lit_from_vertex;
+    const int added = is_from_leg ? i + 2 : i + 1;
+    places[i] = counts.lit_place(effort, added);
+    densities.lit[i] = counts(effort, added) / chain.edge[i];
   }
+  const std::array<float, max_lit_surfaces> first = context.lit_surfaces()->densities(
+      places, end.light, p, end.to_light, end.distance, cos_light);
+  for (int i = 0; i < chain.size; ++i) densities.lit[i] *= first[i];
   return densities;
 }
 

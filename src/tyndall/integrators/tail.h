@@ -58,6 +58,10 @@ struct TailCounts {
   float operator()(Effort effort, int added) const {
     return std::max((*counts)(effort, vertices - added), 1.0f);
   }
+  /// See ConnectionCounts.
+  size_t lit_place(Effort effort, int added) const {
+    return counts->lit_place(effort, vertices - added);
+  }
 };
 
 /// The start of a leg at a vertex that stands at distance t of the leg before.
