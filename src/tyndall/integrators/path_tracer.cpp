@@ -22,9 +22,9 @@ constexpr uint32_t trial_paths = 1 << 17;
 // What connections cost over what their rays cost: techniques are built for them, and bins
 // filled where it is predicted what lights see. Measured on the archetype scenes.
 constexpr double overhead = 1.2, overhead_of_visibility = 2.3;
-// Connections with predicted visibility are given up unless they gain so much over plain
-// paths; others, which lose less, if they leave less than this.
-constexpr double least_efficiency = 0.85, least_efficiency_of_visibility = 1.1;
+// Connections are given up that leave less of the efficiency of plain paths; those with
+// predicted visibility, which lose more, have to be as good.
+constexpr double least_efficiency = 0.85, least_efficiency_of_visibility = 1;
 
 bool can_be_hit(const Light& light) {
   return light.is_environment() || std::holds_alternative<AreaLight>(light.variant());
