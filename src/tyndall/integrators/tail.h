@@ -23,7 +23,7 @@ struct LightEnd {
 
 /// Densities of the last part of a path, up to a common factor: one for each technique that
 /// makes it, times how often that is tried. Their shares are the weights of the balance
-/// heuristic [Veach95]. They come from proxies,
+/// heuristic [Veach97]. They come from proxies,
 /// and are functions of the path's vertices and of the light points alone, so that the
 /// weights of a path sum to one whatever made it.
 ///
