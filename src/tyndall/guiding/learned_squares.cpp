@@ -115,12 +115,12 @@ std::vector<float> LearnedSquares::roots(size_t index, const LearnedSquares* who
 
 void LearnedSquares::learn(const LearnedSquares* whole) {
   const size_t n = squares();
-  const double scale = whole ? scale_of(*whole) : 0;
+  const double prior = whole ? scale_of(*whole) : 0;
   std::vector<std::vector<float>> values(n);
   std::vector<double> totals(n);
   double total = 0;
   for (size_t i = 0; i < n; ++i) {
-    const std::vector<float> raw = roots(i, whole, scale);
+    const std::vector<float> raw = roots(i, whole, prior);
     values[i].resize(raw.size());
     for (int y = 0; y < resolution_; ++y)
       for (int x = 0; x < resolution_; ++x)
@@ -128,11 +128,16 @@ void LearnedSquares::learn(const LearnedSquares* whole) {
     for (const float v : values[i]) totals[i] += v;
     total += totals[i];
   }
-  if (!(total > 0)) return;  // nothing was found: stay as before
+  // If nothing was found, all stays as before.
+  if (total > 0) distribute(values, totals, total);
+}
 
-  std::vector<float> weights(n);
+// In proportion to values of the cells; their totals by square, and over all.
+void LearnedSquares::distribute(std::span<std::vector<float>> values,
+                                std::span<const double> totals, double total) {
+  std::vector<float> weights(values.size());
   learned_.clear();
-  for (size_t i = 0; i < n; ++i) {
+  for (size_t i = 0; i < values.size(); ++i) {
     const double learned = (1 - base_share) * totals[i] / total;
     const double base = base_share * double{base_density(i)};
     weights[i] = static_cast<float>(learned + base);

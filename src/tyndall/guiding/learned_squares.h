@@ -55,6 +55,8 @@ class LearnedSquares {
   size_t cells() const;
   size_t cell(size_t index, Vec2 p) const;
   void learn(const LearnedSquares* whole);
+  void distribute(std::span<std::vector<float>> values, std::span<const double> totals,
+                  double total);
   double scale_of(const LearnedSquares& whole) const;
   double moment(size_t index, int x, int y, int resolution) const;
   double total_moment() const;
