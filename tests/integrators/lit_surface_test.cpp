@@ -149,6 +149,13 @@ float expected_base(const std::string& lamp, const Light& light, const LitPoint&
   return inv_pi / area_of_light / (lamp == "disk" ? 2.0f : 1.0f);
 }
 
+std::optional<LitPoint> draw(const LitSurfaceSampling& sampling, size_t place,
+                             RandomStream& random) {
+  const float u = random.next_1d();
+  const Vec2 u_point = random.next_2d();
+  return sampling.sample(place, u, u_point, random.next_2d(), random);
+}
+
 // What sample() says of a direct walk is what densities() says of its first surface.
 TEST_P(LitSurfaceTest, DensitiesAreThoseOfTheSamples) {
   const Scene scene(lit_room(GetParam()));
@@ -157,10 +164,7 @@ TEST_P(LitSurfaceTest, DensitiesAreThoseOfTheSamples) {
   for (int pass = 0; pass < 2; ++pass) {
     for (int i = 0; i < 2000; ++i) {
       const size_t place = i % 2;
-      const float u = random.next_1d();
-      const Vec2 u_point = random.next_2d();
-      const std::optional<LitPoint> lit =
-          sampling.sample(place, u, u_point, random.next_2d(), random);
+      const std::optional<LitPoint> lit = draw(sampling, place, random);
       if (!lit) continue;
       const bool is_seen = place == 0 || lit->hit.point.p.x > 0;
       sampling.record(place, *lit, is_seen ? luminance(lit->flux) : 0);
@@ -189,11 +193,7 @@ TEST_P(LitSurfaceTest, FindsSurfacesHoweverFarTheLamp) {
   const LitSurfaceSampling sampling(scene, 1);
   RandomStream random(7);
   int found = 0;
-  for (int i = 0; i < 1000; ++i) {
-    const float u = random.next_1d();
-    const Vec2 u_point = random.next_2d();
-    found += sampling.sample(0, u, u_point, random.next_2d(), random) ? 1 : 0;
-  }
+  for (int i = 0; i < 1000; ++i) found += draw(sampling, 0, random) ? 1 : 0;
   EXPECT_GT(found, 200);
 }
 
@@ -204,10 +204,7 @@ TEST(LitSurface, WalksFromTheLight) {
   RandomStream random(6);
   int longest = 0;
   for (int i = 0; i < 2000; ++i) {
-    const float u = random.next_1d();
-    const Vec2 u_point = random.next_2d();
-    const std::optional<LitPoint> lit =
-        sampling.sample(0, u, u_point, random.next_2d(), random);
+    const std::optional<LitPoint> lit = draw(sampling, 0, random);
     if (!lit) continue;
     longest = std::max(longest, lit->surfaces);
     EXPECT_EQ(lit->chain.size, lit->surfaces - 1);

@@ -2,6 +2,7 @@
 #include "scenes.h"
 
 #include "support/surfaces.h"
+#include "tyndall/integrators/path_tracer.h"
 
 namespace tyndall::test {
 
@@ -81,6 +82,17 @@ RunningMoments estimate(Integrator& integrator, const RenderSettings& settings, 
     moments.add(double{integrator.Li(ray, sampler).L.r});
   }
   return moments;
+}
+
+RunningMoments estimate(const Scene& scene, const ConnectionSettings& connections,
+                        uint64_t seed, int count, Vec3 from, float z) {
+  RenderSettings settings = test::settings("learned", 3);
+  settings.seed = seed;
+  PathTracer tracer(scene, settings, connections);
+  return estimate(tracer, settings, count, [&](Sampler& sampler) {
+    const Vec2 u = sampler.next_2d();
+    return Ray{from, normalize(Vec3{u.x - 0.5f, 0.6f * u.y - 0.4f, z})};
+  });
 }
 
 ConnectionSettings with_visibility(std::shared_ptr<const LightVisibility> visibility) {

@@ -41,6 +41,11 @@ RunningMoments estimate(const Scene& scene, const RenderSettings& settings, int 
 RunningMoments estimate(Integrator& integrator, const RenderSettings& settings, int count,
                         const std::function<Ray(Sampler&)>& make_ray);
 
+/// The same of "learned" with these connections, orders up to three, for rays from `from`
+/// through a window at distance `z` along the z axis.
+RunningMoments estimate(const Scene& scene, const ConnectionSettings& connections,
+                        uint64_t seed, int count, Vec3 from, float z);
+
 /// Single and dual connections with predicted visibility; null: it is traced.
 ConnectionSettings with_visibility(std::shared_ptr<const LightVisibility> visibility);
 

@@ -6,7 +6,7 @@
 
 #include "scenes.h"
 #include "support/chi_square.h"
-#include "tyndall/integrators/path_tracer.h"
+#include "tyndall/integrators/light_visibility.h"
 
 namespace tyndall {
 namespace {
@@ -50,13 +50,7 @@ SceneDescription gap(Light sky) {
 
 RunningMoments radiance(const Scene& scene, const ConnectionSettings& connections,
                         uint64_t seed, int count) {
-  RenderSettings settings = test::settings("learned", 3);
-  settings.seed = seed;
-  PathTracer tracer(scene, settings, connections);
-  return test::estimate(tracer, settings, count, [](Sampler& sampler) {
-    const Vec2 u = sampler.next_2d();
-    return Ray{{0, 0, 0}, normalize(Vec3{u.x - 0.5f, 0.6f * u.y - 0.4f, 1})};
-  });
+  return test::estimate(scene, connections, seed, count, {0, 0, 0}, 1);
 }
 
 // What is seen where, but of the wrong places, and of the wrong directions.

@@ -4,7 +4,8 @@
 
 #include "scenes.h"
 #include "support/chi_square.h"
-#include "tyndall/integrators/path_tracer.h"
+#include "tyndall/integrators/connection_leg.h"
+#include "tyndall/integrators/light_visibility.h"
 #include "tyndall/sampling/warps.h"
 
 namespace tyndall {
@@ -51,13 +52,7 @@ std::shared_ptr<const LightVisibility> changed_map(const Scene& scene,
 
 RunningMoments radiance(const Scene& scene, const ConnectionSettings& connections,
                         uint64_t seed, int count) {
-  RenderSettings settings = test::settings("learned", 3);
-  settings.seed = seed;
-  PathTracer tracer(scene, settings, connections);
-  return test::estimate(tracer, settings, count, [](Sampler& sampler) {
-    const Vec2 u = sampler.next_2d();
-    return Ray{{0, 0, -3}, normalize(Vec3{u.x - 0.5f, 0.6f * u.y - 0.4f, 2})};
-  });
+  return test::estimate(scene, connections, seed, count, {0, 0, -3}, 2);
 }
 
 TEST(PredictedVisibilityTest, AWrongMapIsNoBias) {

@@ -55,13 +55,17 @@ size_t LearnedSquares::cells() const {
   return squares() * static_cast<size_t>(sqr(resolution_));
 }
 
+size_t LearnedSquares::cell(size_t index, int x, int y) const {
+  return index * static_cast<size_t>(sqr(resolution_)) +
+         static_cast<size_t>(y * resolution_ + x);
+}
+
 size_t LearnedSquares::cell(size_t index, Vec2 p) const {
   const auto coordinate = [&](float x) {
     return std::clamp(static_cast<int>(x * static_cast<float>(resolution_)), 0,
                       resolution_ - 1);
   };
-  return index * static_cast<size_t>(sqr(resolution_)) +
-         static_cast<size_t>(coordinate(p.y) * resolution_ + coordinate(p.x));
+  return cell(index, coordinate(p.x), coordinate(p.y));
 }
 
 void LearnedSquares::record(const SquaresSample& sample, float value) const {
@@ -80,9 +84,7 @@ double LearnedSquares::moment(size_t index, int x, int y, int resolution) const 
   const int n = resolution_ / resolution;
   int64_t sum = 0;
   for (int j = y * n; j < (y + 1) * n; ++j)
-    for (int i = x * n; i < (x + 1) * n; ++i)
-      sum += moments_[index * static_cast<size_t>(sqr(resolution_)) +
-                      static_cast<size_t>(j * resolution_ + i)];
+    for (int i = x * n; i < (x + 1) * n; ++i) sum += moments_[cell(index, i, j)];
   return static_cast<double>(sum);
 }
 

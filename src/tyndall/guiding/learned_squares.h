@@ -53,6 +53,7 @@ class LearnedSquares {
 
  private:
   size_t cells() const;
+  size_t cell(size_t index, int x, int y) const;
   size_t cell(size_t index, Vec2 p) const;
   void learn(const LearnedSquares* whole);
   void distribute(std::span<std::vector<float>> values, std::span<const double> totals,

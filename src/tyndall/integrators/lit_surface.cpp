@@ -75,9 +75,9 @@ LitSurfaceSampling::LitSurfaceSampling(const Scene& scene, int max_surfaces, siz
       whole_(powers(scene, squares_, max_surfaces), max_bytes) {
   assert(1 <= max_surfaces && max_surfaces <= max_lit_surfaces && places > 0);
   if (places == 1 || whole_.squares() > max_squares_of_places) return;
+  const std::vector<float> weights = powers(scene, squares_, max_surfaces);
   for (size_t i = 0; i < places; ++i)
-    places_.emplace_back(powers(scene, squares_, max_surfaces),
-                         max_bytes_of_places / places);
+    places_.emplace_back(weights, max_bytes_of_places / places);
 }
 
 void LitSurfaceSampling::update() {
