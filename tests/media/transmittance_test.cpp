@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <tuple>
 #include <vector>
@@ -77,6 +78,59 @@ TEST_P(TransmittanceCases, IsUnbiased) {
       << value[1].mean();
   EXPECT_EQ(error[2].mean(), 0);
   EXPECT_EQ(error[2].variance(), 0);
+}
+
+// Grey media take a shorter way, and deep ones end walks by chance.
+TEST_P(TransmittanceCases, IsUnbiasedInGreyMedia) {
+  RandomStream rng(hash(2, method(), placement(), start()));
+  for (const float depth : {0.7f, 6.0f}) {
+    const DensityGrid grid = random_grid(rng, {19, 12, 8}, GridContent::uniform_noise);
+    const Transform world_from_medium = random_transform(rng, placement());
+    const float far = 10 * length(world_from_medium.bounds(box).diagonal());
+    RunningMoments error;
+    for (int i = 0; i < 20; ++i) {
+      const Ray ray = random_ray(rng, start(), box, world_from_medium);
+      const double whole =
+          reference_optical_depth(grid, box, world_from_medium, ray, double{far});
+      if (!(whole > 0)) continue;
+      const auto sigma = static_cast<float>(double{depth} / whole);
+      const Medium medium(GridMedium(grid, box, world_from_medium,
+                                     {Rgb(0.5f * sigma), Rgb(0.5f * sigma), {}},
+                                     IsotropicPhase{}));
+      const Rgb exact = exact_transmittance(grid, world_from_medium, ray, far, Rgb(sigma));
+      for (int k = 0; k < 300; ++k)
+        error.add(double{estimate_transmittance(medium, ray, far, rng, method()).r} -
+                  double{exact.r});
+    }
+    EXPECT_GT(z_p_value(error, 0), sidak(0.01, 2 * case_count))
+        << "depth " << depth << ": " << error.mean() << " +- " << error.standard_error();
+  }
+}
+
+// Residual ratio tracking is worth its name where the density varies little within cells,
+// and no worse than ratio tracking where it jumps.
+TEST(TransmittanceTest, ResidualsVaryLessThanTheWhole) {
+  RandomStream rng(14);
+  const auto variances = [&](GridContent content, float sigma) {
+    const DensityGrid grid = random_grid(rng, {64, 64, 64}, content);
+    const Medium medium(
+        GridMedium(grid, box, Transform(), {Rgb(0), Rgb(sigma), {}}, IsotropicPhase{}));
+    std::array<double, 2> sum{};
+    for (int i = 0; i < 100; ++i) {
+      const Ray ray = random_ray(rng, RayStart::inside, box, Transform());
+      for (size_t m = 0; m < 2; ++m) {
+        RunningMoments T;
+        for (int k = 0; k < 400; ++k)
+          T.add(double{estimate_transmittance(medium, ray, infinity, rng, methods[m]).r});
+        sum[m] += T.variance();
+      }
+    }
+    return sum;
+  };
+  const std::array<double, 2> smooth = variances(GridContent::uniform_noise, 2);
+  EXPECT_LT(smooth[1], 0.4 * smooth[0]);
+  const std::array<double, 2> sharp = variances(GridContent::mostly_empty, 300);
+  EXPECT_LT(sharp[1], 1.05 * sharp[0]);
 }
 
 // Many estimates, few rays: bias below 1e-4 of the transmittance.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 #include "tyndall/geometry/ray.h"
 #include "tyndall/math/rgb.h"
@@ -83,23 +84,73 @@ Rgb ratio_tracking(const M& medium, const Ray& ray, float t_max, RandomStream& r
   return product;
 }
 
-/// Unbiased transmittance up to t_max, never negative: the mean of each segment is
+/// What residual ratio tracking accounts for exactly in a segment: the mean extinction
+/// where what exceeds it is thin, else nothing. In deep and uneven segments rays through
+/// the thin parts would get long products of factors above one, which vary more than plain
+/// ratio tracking does.
+inline float control_extinction(float majorant, float mean, float length) {
+  constexpr float largest_excess = 0.3f;
+  return (majorant - mean) * length < largest_excess ? mean : 0;
+}
+
+/// residual_ratio_tracking() in a grey medium, for less. What the controls let through is
+/// gathered as an optical depth; where it is deep, chance ends the walk.
+template <typename M>
+float grey_residual_ratio_tracking(const M& medium, const Ray& ray, float t_max,
+                                   RandomStream& rng) {
+  constexpr float survival = 0.25f, between_roulettes = 1.3862944f;  // -log(survival)
+  float roulette_depth = 2;
+  auto segments = medium.segments(ray, t_max);
+  MediumSegment s;
+  float remaining = sample_optical_depth(rng), product = 1, depth = 0;
+  while (segments.next(s)) {
+    const float majorant = s.majorant.r;
+    if (!(majorant > 0)) continue;
+    const float control = control_extinction(majorant, s.mean.r, s.t_max - s.t_min);
+    if (control > 0) depth += control * (s.t_max - s.t_min);
+    for (; depth > roulette_depth; roulette_depth += between_roulettes) {
+      if (!(rng.next_1d() < survival)) return 0;
+      product *= 1 / survival;
+    }
+    const float residual = std::max(majorant - control, control);
+    float t = s.t_min;
+    while (true) {
+      const float left = residual * (s.t_max - t);
+      if (remaining >= left) {
+        remaining -= left;
+        break;
+      }
+      t = std::min(t + remaining / residual, s.t_max);
+      product *= std::max(1 - (segments.sigma_t(t).r - control) / residual, 0.0f);
+      if (control == 0) product = play_roulette(Rgb(product), rng).r;
+      if (product == 0) return 0;
+      remaining = sample_optical_depth(rng);
+    }
+  }
+  return product * std::exp(-depth);
+}
+
+/// Unbiased transmittance up to t_max, never negative: the control of each segment is
 /// accounted for exactly, and only the deviations from it are tracked [NSJ14].
 template <typename M>
 Rgb residual_ratio_tracking(const M& medium, const Ray& ray, float t_max,
                             RandomStream& rng) {
+  if (medium.is_grey()) return Rgb(grey_residual_ratio_tracking(medium, ray, t_max, rng));
   auto segments = medium.segments(ray, t_max);
   MediumSegment s;
   float remaining = sample_optical_depth(rng);
   Rgb product(1);
   while (segments.next(s)) {
-    product *= exp(-1 * optical_depth(s.mean, s.t_max - s.t_min));
+    const float length = s.t_max - s.t_min;
+    const Rgb control{control_extinction(s.majorant.r, s.mean.r, length),
+                      control_extinction(s.majorant.g, s.mean.g, length),
+                      control_extinction(s.majorant.b, s.mean.b, length)};
+    product *= exp(-1 * optical_depth(control, length));
     product = play_roulette(product, rng);
     if (is_black(product)) return product;
-    // |sigma_t - mean| is at most this, so that no factor leaves [0, 2].
-    const Rgb above = s.majorant - s.mean;
-    const float residual =
-        std::max(largest_alive(above, product), largest_alive(s.mean, product));
+    // |sigma_t - control| is at most this, so that no factor leaves [0, 2].
+    const float residual = std::max(largest_alive(s.majorant - control, product),
+                                    largest_alive(control, product));
     float t = s.t_min;
     while (true) {
       const float depth = residual * (s.t_max - t);
@@ -108,7 +159,7 @@ Rgb residual_ratio_tracking(const M& medium, const Ray& ray, float t_max,
         break;
       }
       t = std::min(t + remaining / residual, s.t_max);
-      product *= clamp_negative(Rgb(1) - (segments.sigma_t(t) - s.mean) / residual);
+      product *= clamp_negative(Rgb(1) - (segments.sigma_t(t) - control) / residual);
       remaining = sample_optical_depth(rng);
     }
   }

@@ -19,7 +19,7 @@ enum class TransmittanceMethod {
 /// The least variance x time of pixels (docs/performance.md), and never negative, as radiance
 /// must not be.
 inline constexpr TransmittanceMethod default_transmittance_method =
-    TransmittanceMethod::ratio_tracking;
+    TransmittanceMethod::residual_ratio_tracking;
 
 /// An unbiased estimate of the transmittance of `medium` along the ray up to t_max, which
 /// may be infinite. Exact in homogeneous media.
