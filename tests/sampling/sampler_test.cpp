@@ -59,6 +59,33 @@ TEST_P(BothSamplers, EveryArgumentMatters) {
   EXPECT_NE(u, Sampler(GetParam(), 5, {20, 10}, 77).next_2d());
 }
 
+TEST_P(BothSamplers, BlocksDoNotDependOnWhatWasDrawnBefore) {
+  Sampler a(GetParam(), 5, {10, 20}, 77), b = a, c = a;
+  b.next_2d();
+  b.start_block(3);
+  a.start_block(3);
+  c.start_block(4);
+  const Vec2 u = a.next_2d();
+  EXPECT_EQ(u, b.next_2d());
+  EXPECT_NE(u, c.next_2d());
+  EXPECT_EQ(a.next_1d(), b.next_1d());
+}
+
+TEST(Sampler, BlocksKeepTheSamplesOfAPixelWellDistributed) {
+  const auto strata = [](bool in_block) {
+    std::set<int> met;
+    for (uint32_t i = 0; i < 64; ++i) {
+      Sampler sampler(SamplerKind::sobol, 5, {10, 20}, i);
+      for (uint32_t k = 0; k < i % 3; ++k) sampler.next_1d();
+      if (in_block) sampler.start_block(1);
+      met.insert(static_cast<int>(sampler.next_1d() * 64));
+    }
+    return met.size();
+  };
+  EXPECT_EQ(strata(true), 64);
+  EXPECT_LT(strata(false), 60);
+}
+
 TEST_P(BothSamplers, StaysInTheHalfOpenInterval) {
   for (uint32_t i = 0; i < 2000; ++i) {
     Sampler sampler(GetParam(), 1, {-5, 1 << 20}, i * 2147483u);

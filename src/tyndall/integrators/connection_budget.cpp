@@ -29,7 +29,7 @@ constexpr double lit_gain_caution = 3;
 
 // A connection that seems worthless may still be all that finds something rare; most of
 // what a pixel sees happens on the first leg.
-constexpr double min_count_first = 0.25, min_count_later = 0.1, max_count = 4;
+constexpr double min_count_first = 0.25, min_count_later = 0.1, max_count = most_of_a_kind;
 // Until something is known. Pairs tell most, and most on the first leg.
 constexpr float first_count_first = 2, first_count_later = 1;
 

@@ -14,6 +14,10 @@ namespace tyndall {
 
 /// What a path can spend rays on besides walking.
 enum class Effort { single, dual, lit_from_leg, lit_from_vertex, glow, forced };
+inline constexpr uint32_t effort_count = 6;
+
+/// Connections of one kind are made at most so often at one place.
+inline constexpr uint32_t most_of_a_kind = 4;
 
 /// The most regions that a budget divides a picture into, and what lit_place() has of it.
 inline constexpr size_t max_regions = 64, lit_places = 1 + 2 * max_regions;
@@ -108,7 +112,8 @@ class ConnectionBudget {
   double mean_count(Effort effort, int depth) const;
 
  private:
-  static constexpr size_t efforts = 6, depths = 6;  // the last stands for all beyond
+  static constexpr size_t efforts = effort_count,
+                          depths = 6;  // the last stands for all beyond
   static size_t cell(Effort effort, int depth) {
     const auto d = static_cast<size_t>(depth);
     return static_cast<size_t>(effort) * depths + (d < depths ? d : depths - 1);

@@ -175,6 +175,7 @@ void Path::finish() const {
 bool Path::scatter() {
   // A last leg could only find what glows.
   if (depth_ == rules_.max_depth && !rules_.walks_find_light) return false;
+  start_block(Step::direction);
   const std::optional<DirectionSample> s = vertex_->sample(sampler_);
   if (!s) return false;
   beta_ *= s->value / s->pdf;

@@ -84,6 +84,14 @@ class Path {
   bool arrive(float t);
   bool survives_roulette();
   float survival(float carried) const;
+  // What draws numbers of its own at each depth: the same ones in all samples of a pixel,
+  // however often the others were made.
+  enum class Step : uint32_t { direct, direction, connections };
+  void start_block(Step step, uint32_t i = 0) {
+    constexpr uint32_t steps = 2 + effort_count * most_of_a_kind;
+    sampler_.start_block(1 + static_cast<uint32_t>(depth_) * steps +
+                         static_cast<uint32_t>(step) + i);
+  }
   void depart(float carried);
   void tell_worth() const;
   void add(Rgb contribution) { result_.L += contribution / average(spectral_); }
@@ -202,6 +210,8 @@ void Path::spend(Effort effort, const Connect& connect) {
   Rgb sum;
   float found[2] = {0, 0}, share = 0;
   for (int i = 0; i < count; ++i) {
+    start_block(Step::connections,
+                static_cast<uint32_t>(effort) * most_of_a_kind + static_cast<uint32_t>(i));
     const Rgb value = connect();
     sum += value;
     if (i == 0) share = lit_share_;

@@ -95,6 +95,7 @@ void Path::connect_vertex() {
   if (rules_.connections && rules_.connections->makes_dual() && vertex_->sees_glow() &&
       counts(1))
     spend(Effort::glow, [&] { return connect_glow(); });
+  start_block(Step::direct);
   const std::optional<SelectedLight> selected =
       select_light(vertex_->p(), number_for_light());
   if (!selected || !counts(0) || is_left_to_connections(selected->index)) return;

@@ -30,10 +30,15 @@ class Sampler {
   /// Leaves out one call of either, whose numbers nobody needs, so that later ones stay the
   /// same.
   void skip() { ++dimension_; }
+  /// Goes on with a block of dimensions of its own, number `block` > 0: what is drawn of
+  /// it is well distributed over the pixel's samples whatever each of them drew before.
+  void start_block(uint32_t block) { dimension_ = block * block_size; }
   /// A stream for loops of unknown length (tracking), independent of all other dimensions.
   RandomStream fork();
 
  private:
+  static constexpr uint32_t block_size = 32;
+
   SamplerKind kind_;
   Vec2i pixel_;
   uint32_t index_, reversed_index_;
