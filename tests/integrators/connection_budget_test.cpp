@@ -28,8 +28,8 @@ void record(ConnectionBudget& budget, const Half& left, const Half& right) {
       for (int i = 0; i < paths; ++i) {
         const float sign = i % 2 == 0 ? 1.0f : -1.0f;
         const float noise = half.brightness * half.noise;
-        budget.record(region, Effort::single, 0, half.brightness * 0.5f + sign * noise);
-        budget.record_pair(region, Effort::single, 0, noise * noise);
+        budget.record({region, Effort::single, 0}, half.brightness * 0.5f + sign * noise);
+        budget.record_pair({region, Effort::single, 0}, noise * noise);
         budget.record_path({x, y},
                            {.value = half.brightness * (1 + sign * half.walk), .legs = 1});
       }
@@ -132,18 +132,88 @@ TEST(ConnectionBudget, SpendsWhereTheNoiseIs) {
   EXPECT_GT(noisy, 2);
 }
 
+// In each region, half of the places are predicted to find 1, half to find 9.
+void record_places(ConnectionBudget& budget) {
+  for (size_t region = 0; region < max_regions; ++region)
+    for (int i = 0; i < 500; ++i)
+      for (const float predicted : {1.0f, 9.0f})
+        budget.record_place({region, Effort::single, 0, predicted});
+}
+
+TEST(ConnectionBudget, ConnectsMoreOftenWhereMoreIsPredicted) {
+  ConnectionBudget budget(1, size);
+  record_places(budget);
+  record(budget, {1, 0.5f, 1}, {1, 0.5f, 1});
+  const size_t region = budget.region({9, 9});
+  const float typical = budget.count(region, Effort::single, 0);
+  const auto count = [&](float predicted) {
+    return budget.count({region, Effort::single, 0, predicted});
+  };
+  EXPECT_NEAR(count(3), typical, 1e-3f * typical);
+  EXPECT_NEAR(count(1), typical * std::sqrt(0.5f + 0.5f / 9), 1e-3f * typical);
+  EXPECT_NEAR(count(0), typical * std::sqrt(0.5f), 1e-3f * typical);
+  EXPECT_EQ(count(1e30f), most_of_a_kind);
+  EXPECT_EQ(count(NAN), typical);
+  EXPECT_EQ(budget.count({region, Effort::dual, 0, 9}),
+            budget.count(region, Effort::dual, 0));
+}
+
+// Where the second moments are as predicted, counts are the roots of them over the cost.
+TEST(ConnectionBudget, SpendsAsPredictionsSay) {
+  ConnectionBudget known(1, size), predicted(1, size);
+  const float walk = 1, value = 0.5f;
+  record_places(predicted);
+  record(predicted, {1, walk, 0}, {1, walk, 0});
+  for (int i = 0; i < 100; ++i) {
+    record_places(predicted);
+    for (size_t region = 0; region < max_regions; ++region) {
+      for (int k = 0; k < 200; ++k) known.record({region, Effort::single, 0}, value);
+      for (const float p : {1.0f, 9.0f}) {
+        const ConnectionPlace place{region, Effort::single, 0, p};
+        const float chance = std::min(predicted.count(place), 1.0f);
+        const float root = std::sqrt(0.5f + 0.5f * p * p / 9);
+        for (int k = 0; k < static_cast<int>(100 * chance); ++k)
+          predicted.record(place, value * root);
+      }
+    }
+  }
+  record(known, {1, walk, 0}, {1, walk, 0});
+  record(predicted, {1, walk, 0}, {1, walk, 0});
+  const size_t region = known.region({9, 9});
+  const float typical = known.count(region, Effort::single, 0);
+  ASSERT_GT(typical, 0.3f);
+  for (const float p : {1.0f, 9.0f})
+    EXPECT_NEAR(predicted.count({region, Effort::single, 0, p}) / typical,
+                std::sqrt(0.5f + 0.5f * p * p / 9), 0.05f)
+        << p;
+}
+
 TEST(ConnectionBudget, HoldsOutAgainstFireflies) {
   ConnectionBudget budget(1, size);
   record(budget, {1, 0.5f, 0.1f}, {1, 0.5f, 0.1f});
   const float before = budget.count(budget.region({9, 9}), Effort::single, 0);
   budget.record_path({0, 0}, {.value = INFINITY, .legs = 1});
-  budget.record(0, Effort::single, 0, NAN);
-  budget.record_pair(0, Effort::single, 0, INFINITY);
+  budget.record({0, Effort::single, 0}, NAN);
+  budget.record_pair({0, Effort::single, 0}, INFINITY);
   budget.update();
   EXPECT_NEAR(budget.count(budget.region({9, 9}), Effort::single, 0), before, 0.01f);
 }
 
 // Everywhere, paths that find 1 -+ deviation: with connections of this cost, and without.
+// Plain paths that find less on average, and seem to vary little, have missed what is rare.
+TEST(ConnectionBudget, NoticesWhatPlainPathsMiss) {
+  for (const float plain : {1.0f, 0.8f}) {
+    ConnectionBudget budget(1, size);
+    for (int i = 0; i < 5000; ++i) {
+      const float sign = i % 2 == 0 ? 1.0f : -1.0f;
+      budget.record_path({0, 0}, {.value = 1 + sign, .legs = 1, .spent = 3});
+      budget.record_plain_path(0, {.value = plain + 0.9f * sign, .legs = 1});
+    }
+    budget.update();
+    EXPECT_EQ(budget.pays(), plain < 1);
+  }
+}
+
 bool pays(float with, float spent, float without, double overhead = 1,
           double least_efficiency = 0.85) {
   ConnectionBudget budget(1, size, overhead, least_efficiency);

@@ -43,7 +43,10 @@ constexpr double prior_paths = 16, prior_records = 32;
 // Relative to the mean radiance of the picture, added to that of a region: as in relMSE.
 constexpr double epsilon = 0.01;
 
-constexpr double cost_unit = 1.0 / 16;
+// Predictions this many times the typical one count as no more.
+constexpr float largest_ratio = 64;
+
+constexpr double cost_unit = 1.0 / 16, fine_unit = 1.0 / 65536;
 
 // Records, relative to the mean radiance or its square, are kept in these units and
 // clamped: one firefly must not decide.
@@ -71,6 +74,7 @@ ConnectionBudget::ConnectionBudget(float mean_radiance, Vec2i resolution, double
       regions_(static_cast<size_t>(size_.x) * static_cast<size_t>(size_.y)),
       recent_(resolution),
       counts_(regions_.size()),
+      typical_(regions_.size()),
       region_scales_(regions_.size(), static_cast<float>(scale_)) {
   for (auto& counts : counts_)
     for (size_t i = 0; i < counts.size(); ++i)
@@ -85,16 +89,43 @@ size_t ConnectionBudget::region(Vec2i pixel) const {
          part(pixel.x, resolution_.x, size_.x);
 }
 
-void ConnectionBudget::record(size_t region, Effort effort, int depth, float value) const {
-  Cell& c = regions_[region].cells[cell(effort, depth)];
-  add_relaxed(c.squares, quantize(sqr(double{value} * scale_)));
-  add_relaxed(c.visits, 1);
+float ConnectionBudget::count(const ConnectionPlace& place) const {
+  const float typical = count(place.region, place.effort, place.depth);
+  return std::min(typical * factor(place), static_cast<float>(max_count));
 }
 
-void ConnectionBudget::record_pair(size_t region, Effort effort, int depth,
+// The root of the second moment that the prediction leads to expect, half of which is taken
+// to have nothing to do with it.
+float ConnectionBudget::factor(const ConnectionPlace& place) const {
+  const float typical = typical_[place.region][cell(place.effort, place.depth)];
+  if (!(typical > 0 && place.predicted >= 0)) return 1;
+  const float ratio = std::min(place.predicted / typical, largest_ratio);
+  return std::sqrt(0.5f + 0.5f * sqr(ratio));
+}
+
+void ConnectionBudget::record_place(const ConnectionPlace& place) const {
+  if (!(place.predicted > 0 && place.predicted < infinity)) return;
+  Cell& c = regions_[place.region].cells[cell(place.effort, place.depth)];
+  add_relaxed(c.predictions, 1);
+  add_relaxed(c.logarithms,
+              static_cast<int64_t>(std::log2(double{place.predicted}) / fine_unit));
+  add_relaxed(c.factors, static_cast<int64_t>(double{factor(place)} / fine_unit));
+}
+
+// What is found at places where connections are rare stands for the others there.
+void ConnectionBudget::record(const ConnectionPlace& place, float value) const {
+  Cell& c = regions_[place.region].cells[cell(place.effort, place.depth)];
+  const double chance = std::min(double{count(place)}, 1.0);
+  add_relaxed(c.squares,
+              quantize(sqr(double{value} * scale_) / (double{factor(place)} * chance)));
+  add_relaxed(c.visits, static_cast<int64_t>(1 / (chance * fine_unit)));
+}
+
+void ConnectionBudget::record_pair(const ConnectionPlace& place,
                                    float half_squared_difference) const {
-  Cell& c = regions_[region].cells[cell(effort, depth)];
-  add_relaxed(c.variance, quantize(double{half_squared_difference} * sqr(scale_)));
+  Cell& c = regions_[place.region].cells[cell(place.effort, place.depth)];
+  add_relaxed(c.variance, quantize(double{half_squared_difference} * sqr(scale_) /
+                                   double{factor(place)}));
   add_relaxed(c.pairs, 1);
 }
 
@@ -114,6 +145,7 @@ void ConnectionBudget::record_path(Vec2i pixel, const Finished& path) const {
                  std::isfinite(value) ? quantize(std::min(value, largest_value)) : 0);
   add_relaxed(r.radiance, quantize(value));
   add_relaxed(r.paths, 1);
+  add_relaxed(r.recent.values, quantize(value));
   add_relaxed(r.recent.squares, quantize(sqr(value)));
   add_relaxed(r.recent.paths, 1);
   add_relaxed(r.recent.cost,
@@ -125,7 +157,9 @@ void ConnectionBudget::record_path(Vec2i pixel, const Finished& path) const {
 
 void ConnectionBudget::record_plain_path(size_t region, const Finished& path) const {
   Tally& plain = regions_[region].plain;
-  const int64_t square = quantize(sqr(double{path.value} * scale_));
+  const double value = double{path.value} * scale_;
+  const int64_t square = quantize(sqr(value));
+  add_relaxed(plain.values, quantize(value));
   add_relaxed(plain.squares, square);
   add_relaxed(regions_[region].plain_fourths,
               static_cast<int64_t>(sqr(static_cast<double>(square) * unit) / fourth_unit));
@@ -161,8 +195,8 @@ void ConnectionBudget::update() {
   if (!is_decided_) decide(now);
   recent_.clear();
   for (Region& r : regions_)
-    r.recent.squares = r.recent.paths = r.recent.cost = r.recent.lit_gain =
-        r.recent.lit_cost = 0;
+    r.recent.values = r.recent.squares = r.recent.paths = r.recent.cost =
+        r.recent.lit_gain = r.recent.lit_cost = 0;
 }
 
 ConnectionBudget::Efficiency ConnectionBudget::efficiency(Tally Region::*tally,
@@ -171,6 +205,7 @@ ConnectionBudget::Efficiency ConnectionBudget::efficiency(Tally Region::*tally,
   for (size_t r = 0; r < regions_.size(); ++r) {
     const Tally& t = regions_[r].*tally;
     const auto n = static_cast<double>(t.paths);
+    sum.mean += std::sqrt(worth.weights[r]) * static_cast<double>(t.values) * unit;
     sum.variance += worth.weights[r] *
                     (static_cast<double>(t.squares) * unit - n * sqr(worth.means[r]));
     sum.cost += static_cast<double>(t.cost) * cost_unit;
@@ -179,7 +214,8 @@ ConnectionBudget::Efficiency ConnectionBudget::efficiency(Tally Region::*tally,
     sum.lit_cost += static_cast<double>(t.lit_cost) * cost_unit;
   }
   const double n = std::max(sum.paths, 1.0);
-  return {.variance = sum.variance / n,
+  return {.mean = sum.mean / n,
+          .variance = sum.variance / n,
           .cost = sum.cost / n,
           .paths = sum.paths,
           .lit_gain = sum.lit_gain / n,
@@ -221,8 +257,13 @@ void ConnectionBudget::decide(const Worth& worth) {
   lit_pays_ = with.lit_cost == 0 || (with.variance + lit_gain_caution * with.lit_gain) *
                                             (with.cost - with.lit_cost) >
                                         with.variance * with.cost;
-  const double variance =
-      without.variance + tail_errors * standard_error(worth, without.paths);
+  // Chance explains one standard error of the mean.
+  const double missed =
+      with.mean - without.mean -
+      std::sqrt(std::max(without.variance, 0.0) / std::max(without.paths, 1.0));
+  const double variance = without.variance +
+                          tail_errors * standard_error(worth, without.paths) +
+                          sqr(std::max(missed, 0.0)) * without.paths;
   pays_ = variance * without.cost > least_efficiency_ * with.variance * with.cost;
 }
 
@@ -240,16 +281,18 @@ void ConnectionBudget::update_cell(size_t cell, const Worth& worth) {
     variance.sum += worth.weights[r] * static_cast<double>(c.variance) * unit;
     variance.records += static_cast<double>(c.pairs);
     squares.sum += worth.weights[r] * static_cast<double>(c.squares) * unit;
-    squares.records += static_cast<double>(c.visits);
+    squares.records += static_cast<double>(c.visits) * fine_unit;
   }
   if (squares.records == 0) return;
-  const double cost = effort_cost[cell / depths] * more_of_a_kind * price_;
-  const double least = cell % depths == 0 ? min_count_first : min_count_later;
+  const double mean_factor = update_typical(cell);
+  const double cost = effort_cost[cell / depths] * more_of_a_kind * price_ * mean_factor;
+  const double least =
+      (cell % depths == 0 ? min_count_first : min_count_later) / mean_factor;
   for (size_t r = 0; r < regions_.size(); ++r) {
     const Cell& c = regions_[r].cells[cell];
     const double of_all =
         squares.with_prior(worth.weights[r] * static_cast<double>(c.squares) * unit,
-                           static_cast<double>(c.visits));
+                           static_cast<double>(c.visits) * fine_unit);
     double count = std::sqrt(of_all / cost);
     if (count > 1 && variance.records > 0) {
       const double of_pairs =
@@ -259,6 +302,25 @@ void ConnectionBudget::update_cell(size_t cell, const Worth& worth) {
     }
     counts_[r][cell] = static_cast<float>(std::clamp(count, least, max_count));
   }
+}
+
+// The geometric mean of the predictions in each region. Returns the mean factor so far.
+double ConnectionBudget::update_typical(size_t cell) {
+  double count = 0, logarithms = 0, factors = 0;
+  for (const Region& r : regions_) {
+    count += static_cast<double>(r.cells[cell].predictions);
+    logarithms += static_cast<double>(r.cells[cell].logarithms) * fine_unit;
+    factors += static_cast<double>(r.cells[cell].factors) * fine_unit;
+  }
+  if (count == 0) return 1;
+  for (size_t r = 0; r < regions_.size(); ++r) {
+    const Cell& c = regions_[r].cells[cell];
+    const double sum =
+        static_cast<double>(c.logarithms) * fine_unit + prior_records * logarithms / count;
+    typical_[r][cell] = static_cast<float>(
+        std::exp2(sum / (static_cast<double>(c.predictions) + prior_records)));
+  }
+  return factors / count;
 }
 
 double ConnectionBudget::mean_count(Effort effort, int depth) const {

@@ -19,6 +19,15 @@ inline constexpr uint32_t effort_count = 6;
 /// Connections of one kind are made at most so often at one place.
 inline constexpr uint32_t most_of_a_kind = 4;
 
+/// Where a connection may be made.
+struct ConnectionPlace {
+  size_t region;
+  Effort effort;
+  int depth;  ///< scattering vertices before it
+  /// What it is predicted to find, in a unit of its kind; zero if unknown.
+  float predicted = 0;
+};
+
 /// The most regions that a budget divides a picture into, and what lit_place() has of it.
 inline constexpr size_t max_regions = 64, lit_places = 1 + 2 * max_regions;
 
@@ -31,8 +40,13 @@ inline constexpr size_t max_regions = 64, lit_places = 1 + 2 * max_regions;
 /// walk (half the squared difference of two made at one place) and c its cost, the product
 /// of V and C is least for sqrt(M / c * C / V) connections. Where that is less than one, a
 /// connection left to chance varies by all that it finds, and M is the mean of its square.
+/// Within a region M and V hold for places of typical predictions. Where more is predicted
+/// than that, connections are more, or else what is found there rarely would be worth most;
+/// where less is, they are not fewer by much: predictions may be wrong.
 ///
-/// Where connections as a whole cost more than they gain, none are to be made: pays().
+/// Where connections as a whole cost more than they gain, none are to be made: pays(). What
+/// plain paths have not found at all of what paths with connections find must be found by
+/// less than one of them: that much they vary at least.
 ///
 /// Sums are integers, so that their order does not matter: the same counts with any number
 /// of threads. record() may be called from many threads; update() from one, while no other
@@ -52,16 +66,19 @@ class ConnectionBudget {
   /// In units of the mean radiance.
   float relative(float radiance) const { return radiance * static_cast<float>(scale_); }
 
-  /// How many connections to make; fractions are probabilities.
+  /// How many connections to make at typical places; fractions are probabilities.
   float count(size_t region, Effort effort, int depth) const {
     return counts_[region][cell(effort, depth)];
   }
+  /// The same for this place.
+  float count(const ConnectionPlace& place) const;
 
-  /// A connection found `value`.
-  void record(size_t region, Effort effort, int depth, float value) const;
+  /// A path came to the place, whether it makes connections or not.
+  void record_place(const ConnectionPlace& place) const;
+  /// A connection found `value`: the first one that was made there.
+  void record(const ConnectionPlace& place, float value) const;
   /// Two connections at one place found values of this half squared difference.
-  void record_pair(size_t region, Effort effort, int depth,
-                   float half_squared_difference) const;
+  void record_pair(const ConnectionPlace& place, float half_squared_difference) const;
   /// What so many connections cost [rays].
   static float cost(Effort effort, int count);
   /// A path ended.
@@ -121,9 +138,12 @@ class ConnectionBudget {
 
   struct Cell {
     std::atomic<int64_t> squares = 0, visits = 0, variance = 0, pairs = 0;
+    // Of predictions: how many, their logarithms, and the factors that they led to.
+    std::atomic<int64_t> predictions = 0, logarithms = 0, factors = 0;
   };
   struct Tally {
-    std::atomic<int64_t> squares = 0, paths = 0, cost = 0, lit_gain = 0, lit_cost = 0;
+    std::atomic<int64_t> values = 0, squares = 0, paths = 0, cost = 0;
+    std::atomic<int64_t> lit_gain = 0, lit_cost = 0;
   };
   struct Region {
     std::array<Cell, efforts * depths> cells;
@@ -133,11 +153,13 @@ class ConnectionBudget {
   };
   // Mean variance and cost of a path.
   struct Efficiency {
-    double variance, cost, paths, lit_gain, lit_cost;
+    double mean, variance, cost, paths, lit_gain, lit_cost;
   };
   struct Worth;  // of a square that is recorded in a region
   Worth worth() const;
   void update_cell(size_t cell, const Worth& worth);
+  double update_typical(size_t cell);
+  float factor(const ConnectionPlace& place) const;
   Efficiency efficiency(Tally Region::*tally, const Worth& worth) const;
   double variance_in_pixels(const Worth& worth) const;
   double standard_error(const Worth& worth, double paths) const;
@@ -148,7 +170,7 @@ class ConnectionBudget {
   bool is_recording_ = true, is_decided_ = false, pays_ = true, lit_pays_ = true;
   mutable std::vector<Region> regions_;
   PixelSums recent_;
-  std::vector<std::array<float, efforts * depths>> counts_;
+  std::vector<std::array<float, efforts * depths>> counts_, typical_;
   std::vector<float> region_scales_;
 };
 
@@ -168,8 +190,12 @@ class ConnectionCounts {
     const bool is_from_leg = effort == Effort::lit_from_leg;
     return depth == (is_from_leg ? 0 : 1) ? 1 + 2 * region_ + (is_from_leg ? 0 : 1) : 0;
   }
+  /// At typical places.
   float operator()(Effort effort, int depth) const {
     return budget_ ? budget_->count(region_, effort, depth) : 1;
+  }
+  float operator()(const ConnectionPlace& place) const {
+    return budget_ ? budget_->count(place) : 1;
   }
 
  private:

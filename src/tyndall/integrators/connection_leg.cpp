@@ -108,6 +108,11 @@ std::optional<SelectedLight> ConnectionLeg::select_light(float u) {
   return lights().select(context_->scene().lights(), u);
 }
 
+float ConnectionLeg::light_importance() {
+  constexpr size_t few = 16;
+  return context_->scene().lights().size() <= few ? lights().importance() : 1;
+}
+
 float ConnectionLeg::light_probability(size_t light) { return lights().probability(light); }
 
 // One homogeneous medium all along, which is taken to reach to the light.

@@ -107,6 +107,7 @@ bool Path::meet_medium(float t, const Medium* medium) {
 // At vertex_, which stands at distance t along the leg. False if the path ends there.
 bool Path::arrive(float t) {
   t_vertex_ = t;
+  lights_at_vertex_.reset();
   chain_ = chain_to(*vertex_, t);
   if (depth_ == 0) {
     result_.albedo = vertex_->albedo();

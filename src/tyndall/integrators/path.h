@@ -106,7 +106,8 @@ class Path {
   void connect_vertex();
   Rgb arriving(const SelectedLight& selected, const LightSample& sample, const Ray& shadow,
                const Medium* medium);
-  std::optional<SelectedLight> select_light(Vec3 p, float u) const;
+  std::optional<SelectedLight> select_light(float u);  // from the vertex
+  const LightProbabilities& lights_at_vertex();
   float number_for_light();
   Vec2 numbers_on(const Light& light);
   float light_probability(Vec3 p, size_t light) const;
@@ -126,6 +127,7 @@ class Path {
   Rgb connect_dual(Leg& leg);
   Rgb connect_forced(Leg& leg);
   Rgb connect_glow();  // from the vertex
+  float glow_around_lights();
   struct DualStart;
   struct ScatteredOnce;
   ScatteredOnce connect_beyond(const DualStart& start, float u,
@@ -135,7 +137,8 @@ class Path {
   void teach(const DualStart& start, const DualDirection& technique,
              const ScatteredOnce& found);
   template <typename Connect>
-  void spend(Effort effort, const Connect& connect);
+  void spend(Effort effort, float predicted, const Connect& connect);
+  float carried() const { return luminance(beta_) / average(spectral_); }
 
   // A lit point as seen from a vertex x before it.
   struct LitView {
@@ -172,7 +175,8 @@ class Path {
   bool saw_end_ = false;  // of this leg
   float eta_scale_ = 1;
   std::optional<Vertex> vertex_;
-  float t_vertex_ = 0;  // along the leg to it
+  std::optional<LightProbabilities> lights_at_vertex_;  // once somebody asks
+  float t_vertex_ = 0;                                  // along the leg to it
 
   // The last legs, for the densities of techniques that the walk did not use.
   Pivots pivots_;
@@ -198,11 +202,17 @@ class Path {
   size_t departed_ = 0;
 };
 
-// Makes the connection as often as the budget says, on average.
+// Makes the connection as often as the budget says, on average. What it is predicted to
+// find is relative to what the walk carries.
 template <typename Connect>
-void Path::spend(Effort effort, const Connect& connect) {
+void Path::spend(Effort effort, float predicted, const Connect& connect) {
   const ConnectionBudget* budget = rules_.budget;
-  const float wanted = counts_(effort, depth_);
+  const ConnectionPlace place{.region = counts_.region(),
+                              .effort = effort,
+                              .depth = depth_,
+                              .predicted = predicted * carried()};
+  const float wanted = counts_(place);
+  if (budget && budget->is_recording()) budget->record_place(place);
   const auto whole = static_cast<int>(wanted);
   const float rest = wanted - static_cast<float>(whole);
   const int count = whole + (rest > 0 && tracking_.next_1d() < rest ? 1 : 0);
@@ -219,7 +229,7 @@ void Path::spend(Effort effort, const Connect& connect) {
   }
   add(sum / wanted);
   if (!budget || !budget->is_recording()) return;
-  budget->record(counts_.region(), effort, depth_, found[0]);
+  budget->record(place, found[0]);
   spent_ += ConnectionBudget::cost(effort, count);
   if (effort == Effort::lit_from_leg || effort == Effort::lit_from_vertex) {
     lit_spent_ += ConnectionBudget::cost(effort, count);
@@ -227,7 +237,7 @@ void Path::spend(Effort effort, const Connect& connect) {
         ConnectionBudget::lit_gain(found[0], share, wanted) / std::min(wanted, 1.0f);
   }
   if (count < 2) return;
-  budget->record_pair(counts_.region(), effort, depth_, 0.5f * sqr(found[0] - found[1]));
+  budget->record_pair(place, 0.5f * sqr(found[0] - found[1]));
 }
 
 }  // namespace tyndall

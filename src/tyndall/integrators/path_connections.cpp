@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The connections of a path to lights, and their weights.
 #include <algorithm>
+#include <cmath>
 #include <type_traits>
 
 #include "tyndall/integrators/path.h"
@@ -8,9 +9,16 @@
 #include "tyndall/sampling/mis.h"
 
 namespace tyndall {
-std::optional<SelectedLight> Path::select_light(Vec3 p, float u) const {
+
+std::optional<SelectedLight> Path::select_light(float u) {
   if (!rules_.connections) return scene_.select_light(u);
-  return rules_.connections->light_choice().at_point(p).select(scene_.lights(), u);
+  return lights_at_vertex().select(scene_.lights(), u);
+}
+
+const LightProbabilities& Path::lights_at_vertex() {
+  if (!lights_at_vertex_)
+    lights_at_vertex_ = rules_.connections->light_choice().at_point(vertex_->p());
+  return *lights_at_vertex_;
 }
 
 float Path::light_probability(Vec3 p, size_t light) const {
@@ -91,13 +99,12 @@ void Path::connect_vertex() {
   if (vertex_->is_specular()) return;
   if (rules_.connections && rules_.connections->lit_surfaces() &&
       !vertex_->is_in_medium() && counts(0, 1))
-    spend(Effort::lit_from_vertex, [&] { return connect_lit(); });
+    spend(Effort::lit_from_vertex, 1, [&] { return connect_lit(); });
   if (rules_.connections && rules_.connections->makes_dual() && vertex_->sees_glow() &&
       counts(1))
-    spend(Effort::glow, [&] { return connect_glow(); });
+    spend(Effort::glow, glow_around_lights(), [&] { return connect_glow(); });
   start_block(Step::direct);
-  const std::optional<SelectedLight> selected =
-      select_light(vertex_->p(), number_for_light());
+  const std::optional<SelectedLight> selected = select_light(number_for_light());
   if (!selected || !counts(0) || is_left_to_connections(selected->index)) return;
   const Connection connection = connect_to(*vertex_, *selected);
   if (is_black(connection.light)) return;
@@ -158,13 +165,15 @@ void Path::connect(Leg& leg) {
   enter(leg);
   if (leg_->is_empty()) return;
   const bool has_finite = rules_.connections->light_choice().has_finite_lights();
-  if (has_finite && counts(1)) spend(Effort::single, [&] { return connect_single(leg); });
+  if (has_finite && counts(1))
+    spend(Effort::single, leg_->light_importance(), [&] { return connect_single(leg); });
   if (counts(1) && leg_->forces_collisions())
-    spend(Effort::forced, [&] { return connect_forced(leg); });
+    spend(Effort::forced, leg_->proxy().collision_share(),
+          [&] { return connect_forced(leg); });
   if (rules_.connections->makes_dual() && counts(2))
-    spend(Effort::dual, [&] { return connect_dual(leg); });
+    spend(Effort::dual, 1, [&] { return connect_dual(leg); });
   if (rules_.connections->lit_surfaces() && counts(1, 1))
-    spend(Effort::lit_from_leg, [&] { return connect_lit(leg); });
+    spend(Effort::lit_from_leg, 1, [&] { return connect_lit(leg); });
 }
 
 Rgb Path::connect_single(Leg& leg) {

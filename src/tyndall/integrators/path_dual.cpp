@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Connections of a path to lights through two further scattering vertices.
+#include <cmath>
+
 #include "tyndall/integrators/dual_direction.h"
 #include "tyndall/integrators/path.h"
 
@@ -51,8 +53,7 @@ Rgb Path::connect_dual(Leg& leg) {
 // direction and distance [Georgiev13]: a walk hardly ever leaves a surface towards the
 // neighbourhood of a lamp, where fog glows most.
 Rgb Path::connect_glow() {
-  const std::optional<SelectedLight> selected =
-      select_light(vertex_->p(), sampler_.next_1d());
+  const std::optional<SelectedLight> selected = select_light(sampler_.next_1d());
   const Vec2 u_direction = sampler_.next_2d();
   const float u = sampler_.next_1d();
   const std::optional<Vec3> pivot =
@@ -72,6 +73,10 @@ Rgb Path::connect_glow() {
   const float pdf = selected->probability * direction->pdf;
   return beta_ * f * found.light * (found.weight / pdf);
 }
+
+// What comes from there to the vertex falls off with the distance from the light, not with
+// its square; up to a factor.
+float Path::glow_around_lights() { return std::sqrt(lights_at_vertex().importance()); }
 
 void Path::rehearse(Leg& leg) {
   enter(leg);

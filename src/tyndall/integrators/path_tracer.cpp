@@ -22,9 +22,9 @@ constexpr uint32_t trial_paths = 1 << 17;
 // What connections cost over what their rays cost: techniques are built for them, and bins
 // filled where it is predicted what lights see. Measured on the archetype scenes.
 constexpr double overhead = 1.2, overhead_of_visibility = 2.3;
-// Connections are given up that leave less of the efficiency of plain paths; those with
-// predicted visibility, which lose more, have to be as good.
-constexpr double least_efficiency = 0.85, least_efficiency_of_visibility = 1;
+// Connections are given up that leave less of the efficiency of plain paths. Those of first
+// samples have not learned much yet.
+constexpr double least_efficiency = 0.85;
 
 bool can_be_hit(const Light& light) {
   return light.is_environment() || std::holds_alternative<AreaLight>(light.variant());
@@ -70,10 +70,9 @@ PathTracer::PathTracer(const Scene& scene, const RenderSettings& settings,
   if (connections_->settings().sky_directions)
     rules_.visibility = plain_rules_.visibility = connections_->visibility();
   rules_.filling = nullptr;
-  const bool foresees = connections_->visibility();
   budget_.emplace(pilot_radiance(), resolution_,
-                  foresees ? overhead_of_visibility : overhead,
-                  foresees ? least_efficiency_of_visibility : least_efficiency);
+                  connections_->visibility() ? overhead_of_visibility : overhead,
+                  least_efficiency);
   rules_.budget = &*budget_;
   if (connections.roulette) learn_worth();
 }

@@ -38,11 +38,15 @@ LightProbabilities LightChoice::build(float total_power,
   if (!(total_power > 0)) return result;
   auto& cdf = result.cdf_;
   cdf.resize(candidates_.size(), 1);
-  if (cdf.size() == 1) return result;
+  if (cdf.size() == 1) {
+    result.importance_ = importance(candidates_.front());
+    return result;
+  }
   float sum = 0;
   const bool by_power = candidates_.size() > max_candidates;
   for (size_t i = 0; i < candidates_.size(); ++i)
     cdf[i] = by_power ? 0 : importance(candidates_[i]), sum += cdf[i];
+  result.importance_ = sum;
   const float scale = sum > 0 && std::isfinite(sum) ? (1 - power_share) / sum : 0;
   const float power_scale = (scale > 0 ? power_share : 1) / total_power;
   const bool finite_only = total_power == finite_power_ && total_power != power_;
@@ -105,6 +109,7 @@ float LightProbabilities::probability(size_t index) const {
 
 LightProbabilities LightProbabilities::reweighed(std::span<const float> factors) const {
   LightProbabilities result;
+  result.importance_ = importance_;
   float total = 0;
   for (size_t i = 0; i < cdf_.size(); ++i)
     result.cdf_.push_back(total += probability(i) * factors[i]);

@@ -26,6 +26,9 @@ class LightProbabilities {
   std::optional<SelectedLight> select(const std::vector<Light>& lights, float u) const;
   float probability(size_t index) const;
   size_t size() const { return cdf_.size(); }
+  /// What all lights together may contribute, as LightChoice measures it, in a unit of no
+  /// meaning. Zero where that was not looked at.
+  float importance() const { return importance_; }
   /// Each times a factor that is not negative, one for each light, and made to sum to one
   /// again; unchanged if nothing would be left.
   LightProbabilities reweighed(std::span<const float> factors) const;
@@ -33,6 +36,7 @@ class LightProbabilities {
  private:
   friend class LightChoice;
   boost::container::small_vector<float, 8> cdf_;  // inclusive, last is 1; empty: nothing
+  float importance_ = 0;
 };
 
 /// Chooses lights by what they may contribute.
