@@ -9,6 +9,13 @@
 #include "tyndall/sampling/mis.h"
 
 namespace tyndall {
+namespace {
+
+// What the other kinds of connections find is not predicted. What the walk carries does not
+// do by itself: walks survive that are worth more, and carry less.
+constexpr float unknown = 0;
+
+}  // namespace
 
 std::optional<SelectedLight> Path::select_light(float u) {
   if (!rules_.connections) return scene_.select_light(u);
@@ -99,7 +106,7 @@ void Path::connect_vertex() {
   if (vertex_->is_specular()) return;
   if (rules_.connections && rules_.connections->lit_surfaces() &&
       !vertex_->is_in_medium() && counts(0, 1))
-    spend(Effort::lit_from_vertex, 1, [&] { return connect_lit(); });
+    spend(Effort::lit_from_vertex, unknown, [&] { return connect_lit(); });
   if (rules_.connections && rules_.connections->makes_dual() && vertex_->sees_glow() &&
       counts(1))
     spend(Effort::glow, glow_around_lights(), [&] { return connect_glow(); });
@@ -171,9 +178,9 @@ void Path::connect(Leg& leg) {
     spend(Effort::forced, leg_->proxy().collision_share(),
           [&] { return connect_forced(leg); });
   if (rules_.connections->makes_dual() && counts(2))
-    spend(Effort::dual, 1, [&] { return connect_dual(leg); });
+    spend(Effort::dual, unknown, [&] { return connect_dual(leg); });
   if (rules_.connections->lit_surfaces() && counts(1, 1))
-    spend(Effort::lit_from_leg, 1, [&] { return connect_lit(leg); });
+    spend(Effort::lit_from_leg, unknown, [&] { return connect_lit(leg); });
 }
 
 Rgb Path::connect_single(Leg& leg) {
