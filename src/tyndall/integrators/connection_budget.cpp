@@ -12,7 +12,7 @@ namespace {
 
 // Rays that one connection, one leg of the walk with its next event estimation, and the
 // mere possibility of connections from a leg cost.
-constexpr std::array<double, 6> effort_cost{2, 6, 4, 3, 4, 3};
+constexpr std::array<double, effort_count> effort_cost{2, 6, 4, 3, 4, 3};
 constexpr double leg_cost = 2.5, possible_cost = 1;
 
 // What one connection more costs, in units of its rays: less than the overhead over all,

@@ -129,8 +129,8 @@ class ConnectionBudget {
   double mean_count(Effort effort, int depth) const;
 
  private:
-  static constexpr size_t efforts = effort_count,
-                          depths = 6;  // the last stands for all beyond
+  static constexpr size_t efforts = effort_count;
+  static constexpr size_t depths = 6;  // the last stands for all beyond
   static size_t cell(Effort effort, int depth) {
     const auto d = static_cast<size_t>(depth);
     return static_cast<size_t>(effort) * depths + (d < depths ? d : depths - 1);

@@ -28,30 +28,52 @@ inline float largest_alive(Rgb sigma, Rgb transmittance) {
                    transmittance.b > 0 ? sigma.b : 0});
 }
 
-/// ratio_tracking() in a grey medium: the same walk and the same estimate for less, as one
-/// channel stands for all.
-template <typename M>
-float grey_ratio_tracking(const M& medium, const Ray& ray, float t_max, RandomStream& rng) {
+/// What residual ratio tracking accounts for exactly in a segment: the mean extinction
+/// where what exceeds it is thin, else nothing. In deep and uneven segments rays through
+/// the thin parts would get long products of factors above one, which vary more than plain
+/// ratio tracking does.
+inline float control_extinction(float majorant, float mean, float length) {
+  constexpr float largest_excess = 0.3f;
+  return (majorant - mean) * length < largest_excess ? mean : 0;
+}
+
+/// Either kind of ratio tracking in a grey medium, for less, as one channel stands for all;
+/// control_of(majorant, mean, length) is what a segment accounts for exactly, zero for
+/// plain ratio tracking. What the controls let through is gathered as an optical depth;
+/// where it is deep, chance ends the walk.
+template <typename M, typename Control>
+float grey_ratio_tracking(const M& medium, const Ray& ray, float t_max, RandomStream& rng,
+                          const Control& control_of) {
+  constexpr float survival = 0.25f, between_roulettes = 1.3862944f;  // -log(survival)
+  float roulette_depth = 2;
   auto segments = medium.segments(ray, t_max);
   MediumSegment s;
-  float remaining = sample_optical_depth(rng), product = 1;
+  float remaining = sample_optical_depth(rng), product = 1, depth = 0;
   while (segments.next(s)) {
     const float majorant = s.majorant.r;
+    if (!(majorant > 0)) continue;
+    const float control = control_of(majorant, s.mean.r, s.t_max - s.t_min);
+    if (control > 0) depth += control * (s.t_max - s.t_min);
+    for (; depth > roulette_depth; roulette_depth += between_roulettes) {
+      if (!(rng.next_1d() < survival)) return 0;
+      product *= 1 / survival;
+    }
+    const float residual = std::max(majorant - control, control);
     float t = s.t_min;
     while (true) {
-      const float depth = majorant * (s.t_max - t);
-      if (remaining >= depth) {
-        remaining -= depth;
+      const float left = residual * (s.t_max - t);
+      if (remaining >= left) {
+        remaining -= left;
         break;
       }
-      t = std::min(t + remaining / majorant, s.t_max);
-      product *= std::max(1 - segments.sigma_t(t).r / majorant, 0.0f);
-      product = play_roulette(Rgb(product), rng).r;
+      t = std::min(t + remaining / residual, s.t_max);
+      product *= std::max(1 - (segments.sigma_t(t).r - control) / residual, 0.0f);
+      if (control == 0) product = play_roulette(Rgb(product), rng).r;
       if (product == 0) return 0;
       remaining = sample_optical_depth(rng);
     }
   }
-  return product;
+  return product * std::exp(-depth);
 }
 
 /// Unbiased transmittance up to t_max, in [0, 1]: the product of the null probabilities at
@@ -59,7 +81,10 @@ float grey_ratio_tracking(const M& medium, const Ray& ray, float t_max, RandomSt
 /// the walk.
 template <typename M>
 Rgb ratio_tracking(const M& medium, const Ray& ray, float t_max, RandomStream& rng) {
-  if (medium.is_grey()) return Rgb(grey_ratio_tracking(medium, ray, t_max, rng));
+  if (medium.is_grey()) {
+    const auto none = [](float, float, float) { return 0.0f; };
+    return Rgb(grey_ratio_tracking(medium, ray, t_max, rng, none));
+  }
   auto segments = medium.segments(ray, t_max);
   MediumSegment s;
   float remaining = sample_optical_depth(rng);
@@ -84,58 +109,13 @@ Rgb ratio_tracking(const M& medium, const Ray& ray, float t_max, RandomStream& r
   return product;
 }
 
-/// What residual ratio tracking accounts for exactly in a segment: the mean extinction
-/// where what exceeds it is thin, else nothing. In deep and uneven segments rays through
-/// the thin parts would get long products of factors above one, which vary more than plain
-/// ratio tracking does.
-inline float control_extinction(float majorant, float mean, float length) {
-  constexpr float largest_excess = 0.3f;
-  return (majorant - mean) * length < largest_excess ? mean : 0;
-}
-
-/// residual_ratio_tracking() in a grey medium, for less. What the controls let through is
-/// gathered as an optical depth; where it is deep, chance ends the walk.
-template <typename M>
-float grey_residual_ratio_tracking(const M& medium, const Ray& ray, float t_max,
-                                   RandomStream& rng) {
-  constexpr float survival = 0.25f, between_roulettes = 1.3862944f;  // -log(survival)
-  float roulette_depth = 2;
-  auto segments = medium.segments(ray, t_max);
-  MediumSegment s;
-  float remaining = sample_optical_depth(rng), product = 1, depth = 0;
-  while (segments.next(s)) {
-    const float majorant = s.majorant.r;
-    if (!(majorant > 0)) continue;
-    const float control = control_extinction(majorant, s.mean.r, s.t_max - s.t_min);
-    if (control > 0) depth += control * (s.t_max - s.t_min);
-    for (; depth > roulette_depth; roulette_depth += between_roulettes) {
-      if (!(rng.next_1d() < survival)) return 0;
-      product *= 1 / survival;
-    }
-    const float residual = std::max(majorant - control, control);
-    float t = s.t_min;
-    while (true) {
-      const float left = residual * (s.t_max - t);
-      if (remaining >= left) {
-        remaining -= left;
-        break;
-      }
-      t = std::min(t + remaining / residual, s.t_max);
-      product *= std::max(1 - (segments.sigma_t(t).r - control) / residual, 0.0f);
-      if (control == 0) product = play_roulette(Rgb(product), rng).r;
-      if (product == 0) return 0;
-      remaining = sample_optical_depth(rng);
-    }
-  }
-  return product * std::exp(-depth);
-}
-
 /// Unbiased transmittance up to t_max, never negative: the control of each segment is
 /// accounted for exactly, and only the deviations from it are tracked [NSJ14].
 template <typename M>
 Rgb residual_ratio_tracking(const M& medium, const Ray& ray, float t_max,
                             RandomStream& rng) {
-  if (medium.is_grey()) return Rgb(grey_residual_ratio_tracking(medium, ray, t_max, rng));
+  if (medium.is_grey())
+    return Rgb(grey_ratio_tracking(medium, ray, t_max, rng, control_extinction));
   auto segments = medium.segments(ray, t_max);
   MediumSegment s;
   float remaining = sample_optical_depth(rng);
