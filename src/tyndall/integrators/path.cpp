@@ -40,9 +40,12 @@ Path::Path(const Scene& scene, const PathRules& rules, const Ray& ray, Sampler& 
 }
 
 void Path::look_at_end(Leg& leg) {
-  saw_end_ = rules_.connections && depth_ == 0 && !leg_->is_empty() &&
-             leg_->proxy().transmittance(far_distance) > least_end_transmittance;
+  saw_end_ = false;
+  if (!rules_.connections || depth_ > 0 || leg_->is_empty()) return;
+  const float T = leg_->proxy().transmittance(far_distance);
+  saw_end_ = T > least_end_transmittance;
   if (!saw_end_) return;
+  probability_of_first_ = T;
   const Rgb beta = beta_;
   const Medium* const medium = medium_;
   beta_ *= transmittance_along(leg, leg.length(), tracking_);

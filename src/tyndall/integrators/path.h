@@ -112,7 +112,9 @@ class Path {
   Vec2 numbers_on(const Light& light);
   float light_probability(Vec3 p, size_t light) const;
   bool is_left_to_connections(size_t light);
-  TailCounts tail_counts(int vertices) const { return {&counts_, vertices}; }
+  TailCounts tail_counts(int vertices) const {
+    return {&counts_, vertices, probability_of_first_};
+  }
   float direct_weight(const LightEnd& end);
   float hit_weight(size_t light, float light_pdf, float distance);
   float particle_ratio(const DirectionSample& s) const;
@@ -170,9 +172,10 @@ class Path {
   Rgb beta_{1};
   Rgb spectral_{1};
   int hero_ = 0;
-  int depth_ = 0;         // scattering vertices so far
-  int order_ = 0;         // of them, in media
-  bool saw_end_ = false;  // of this leg
+  int depth_ = 0;                   // scattering vertices so far
+  int order_ = 0;                   // of them, in media
+  bool saw_end_ = false;            // of this leg
+  float probability_of_first_ = 1;  // see TailCounts
   float eta_scale_ = 1;
   std::optional<Vertex> vertex_;
   std::optional<LightProbabilities> lights_at_vertex_;  // once somebody asks

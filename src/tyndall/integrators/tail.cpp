@@ -62,14 +62,16 @@ TailDensities tail_densities(const ConnectionContext& context, const TailCounts&
     return densities;
   }
   const float last = leg.single(end.light)->pdf_t(t) * end.pdf;
+  const float reached =
+      counts.vertices == 2 && !x.is_in_medium ? counts.probability_of_first : 1;
   densities.direct = 0;
   const float dual = dual_density(context, before, x, leg, end.light);
   if (!(dual > 0)) {
-    densities.single = last * leg.light_probability(end.light) * x.pdf_direction *
+    densities.single = reached * last * leg.light_probability(end.light) * x.pdf_direction *
                        counts(Effort::single, 1);
     densities.glow =
         last * glow_density(context, x, leg, end.light) * counts(Effort::glow, 1);
-    densities.hit *= x.pdf_direction;
+    densities.hit *= reached * x.pdf_direction;
     return densities;
   }
   densities.dual = dual * last * counts(Effort::dual, 2);
@@ -96,6 +98,12 @@ TailDensities surface_tail_densities(const ConnectionContext& context,
   const std::array<float, max_lit_surfaces> first = context.lit_surfaces()->densities(
       places, end.light, p, end.to_light, end.distance, cos_light);
   for (int i = 0; i < chain.size; ++i) densities.lit[i] *= first[i];
+  const bool is_from_first = counts.vertices == chain.size + 1 && !chain.is_seen_from_leg;
+  if (!is_from_first) return densities;
+  // All others walk on from there.
+  densities.direct *= counts.probability_of_first;
+  densities.hit *= counts.probability_of_first;
+  for (int i = 0; i < chain.size - 1; ++i) densities.lit[i] *= counts.probability_of_first;
   return densities;
 }
 

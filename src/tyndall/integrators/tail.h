@@ -52,6 +52,9 @@ struct TailDensities {
 struct TailCounts {
   const ConnectionCounts* counts;
   int vertices;
+  /// With which a walk reaches the surface that the camera sees, through the media before
+  /// it; connections from there are made for certain.
+  float probability_of_first = 1;
 
   /// Of those that add the last `added` vertices. Those left to chance count as one: were
   /// their shares as small as their chances, what walks find near lamps would vary more.
