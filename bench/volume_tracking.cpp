@@ -168,7 +168,7 @@ double median(std::vector<double> values) {
 
 template <typename M>
 float transmittance(const M& medium, const Ray& ray, RandomStream& rng) {
-  return ratio_tracking(medium, ray, infinity, rng).r;
+  return residual_ratio_tracking(medium, ray, infinity, rng).r;
 }
 
 template <typename M>

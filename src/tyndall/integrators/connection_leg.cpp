@@ -110,7 +110,7 @@ std::optional<SelectedLight> ConnectionLeg::select_light(float u) {
 
 float ConnectionLeg::light_importance() {
   constexpr size_t few = 16;
-  return context_->scene().lights().size() <= few ? lights().importance() : 1;
+  return context_->scene().lights().size() <= few ? lights().importance() : 0;
 }
 
 float ConnectionLeg::light_probability(size_t light) { return lights().probability(light); }

@@ -129,8 +129,8 @@ class ConnectionLeg {
   /// Draws a light for connections; those at infinity are never drawn.
   std::optional<SelectedLight> select_light(float u);
   float light_probability(size_t light);
-  /// See LightProbabilities: what single scattering along the leg may find. One for all
-  /// legs where lights are many: to look at each of them takes longer than it gains.
+  /// See LightProbabilities: what single scattering along the leg may find. Zero, for
+  /// unknown, where lights are many: to look at each of them takes longer than it gains.
   float light_importance();
   /// The point that the techniques aim at; empty for lights at infinity.
   std::optional<Vec3> pivot(size_t light) const { return (*pivots_)(light); }
