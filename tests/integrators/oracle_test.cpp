@@ -17,7 +17,7 @@ using test::estimate;
 // The number of samples against closed forms: TYNDALL_ORACLE_SAMPLES, or the usual one.
 int sample_count(int usual) {
   const char* text = std::getenv("TYNDALL_ORACLE_SAMPLES");
-  return text ? std::atoi(text) : usual;
+  return text ? static_cast<int>(std::atof(text)) : usual;  // 1e7 is a number
 }
 
 // Shows how far off an estimate is, to those who asked for more samples.
