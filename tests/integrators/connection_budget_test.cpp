@@ -158,6 +158,17 @@ TEST(ConnectionBudget, ConnectsMoreOftenWhereMoreIsPredicted) {
             budget.count(region, Effort::dual, 0));
 }
 
+// What varies little is made once; made by chance it would vary by all that it finds.
+TEST(ConnectionBudget, LeavesNothingToChanceThatIsWorthIt) {
+  ConnectionBudget budget(1, size);
+  record_places(budget);
+  record(budget, {1, 0.05f, 0}, {1, 0.05f, 0});
+  const size_t region = budget.region({9, 9});
+  ASSERT_EQ(budget.count(region, Effort::single, 0), 1);
+  EXPECT_EQ(budget.count({region, Effort::single, 0, 1}), 1);
+  EXPECT_GT(budget.count({region, Effort::single, 0, 9}), 1);
+}
+
 // Where the second moments are as predicted, counts are the roots of them over the cost.
 TEST(ConnectionBudget, SpendsAsPredictionsSay) {
   ConnectionBudget known(1, size), predicted(1, size);

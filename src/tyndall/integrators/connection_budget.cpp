@@ -43,6 +43,8 @@ constexpr double prior_paths = 16, prior_records = 32;
 // Relative to the mean radiance of the picture, added to that of a region: as in relMSE.
 constexpr double epsilon = 0.01;
 
+// The factor of a prediction is at least this: the root of a half.
+constexpr double largest_saving = 0.7;
 // Predictions this many times the typical one count as no more.
 constexpr float largest_ratio = 64;
 
@@ -79,6 +81,7 @@ ConnectionBudget::ConnectionBudget(float mean_radiance, Vec2i resolution, double
   for (auto& counts : counts_)
     for (size_t i = 0; i < counts.size(); ++i)
       counts[i] = i % depths == 0 ? first_count_first : first_count_later;
+  by_squares_ = counts_;
 }
 
 size_t ConnectionBudget::region(Vec2i pixel) const {
@@ -90,8 +93,12 @@ size_t ConnectionBudget::region(Vec2i pixel) const {
 }
 
 float ConnectionBudget::count(const ConnectionPlace& place) const {
-  const float typical = count(place.region, place.effort, place.depth);
-  return std::min(typical * factor(place), static_cast<float>(max_count));
+  const float ratio = factor(place);
+  const size_t i = cell(place.effort, place.depth);
+  const float count = counts_[place.region][i] * ratio;
+  // What is worth being made is not left to chance, however little it varies.
+  const float least = std::min(by_squares_[place.region][i] * ratio, 1.0f);
+  return std::clamp(count, least, static_cast<float>(max_count));
 }
 
 // The root of the second moment that the prediction leads to expect, half of which is taken
@@ -294,6 +301,7 @@ void ConnectionBudget::update_cell(size_t cell, const Worth& worth) {
         squares.with_prior(worth.weights[r] * static_cast<double>(c.squares) * unit,
                            static_cast<double>(c.visits) * fine_unit);
     double count = std::sqrt(of_all / cost);
+    by_squares_[r][cell] = static_cast<float>(std::min(count, 1 / largest_saving));
     if (count > 1 && variance.records > 0) {
       const double of_pairs =
           variance.with_prior(worth.weights[r] * static_cast<double>(c.variance) * unit,

@@ -170,7 +170,9 @@ class ConnectionBudget {
   bool is_recording_ = true, is_decided_ = false, pays_ = true, lit_pays_ = true;
   mutable std::vector<Region> regions_;
   PixelSums recent_;
-  std::vector<std::array<float, efforts * depths>> counts_, typical_;
+  // Of typical predictions: connections, how many if each found its mean square, and the
+  // predictions.
+  std::vector<std::array<float, efforts * depths>> counts_, by_squares_, typical_;
   std::vector<float> region_scales_;
 };
 
