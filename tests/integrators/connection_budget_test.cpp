@@ -210,7 +210,6 @@ TEST(ConnectionBudget, HoldsOutAgainstFireflies) {
   EXPECT_NEAR(budget.count(budget.region({9, 9}), Effort::single, 0), before, 0.01f);
 }
 
-// Everywhere, paths that find 1 -+ deviation: with connections of this cost, and without.
 // Plain paths that find less on average, and seem to vary little, have missed what is rare.
 TEST(ConnectionBudget, NoticesWhatPlainPathsMiss) {
   for (const float plain : {1.0f, 0.8f}) {
@@ -225,6 +224,7 @@ TEST(ConnectionBudget, NoticesWhatPlainPathsMiss) {
   }
 }
 
+// Everywhere, paths that find 1 -+ deviation: with connections of this cost, and without.
 bool pays(float with, float spent, float without, double overhead = 1,
           double least_efficiency = 0.85) {
   ConnectionBudget budget(1, size, overhead, least_efficiency);

@@ -43,8 +43,6 @@ constexpr double prior_paths = 16, prior_records = 32;
 // Relative to the mean radiance of the picture, added to that of a region: as in relMSE.
 constexpr double epsilon = 0.01;
 
-// The factor of a prediction is at least this: the root of a half.
-constexpr double largest_saving = 0.7;
 // Predictions this many times the typical one count as no more.
 constexpr float largest_ratio = 64;
 
@@ -301,7 +299,7 @@ void ConnectionBudget::update_cell(size_t cell, const Worth& worth) {
         squares.with_prior(worth.weights[r] * static_cast<double>(c.squares) * unit,
                            static_cast<double>(c.visits) * fine_unit);
     double count = std::sqrt(of_all / cost);
-    by_squares_[r][cell] = static_cast<float>(std::min(count, 1 / largest_saving));
+    by_squares_[r][cell] = static_cast<float>(count);
     if (count > 1 && variance.records > 0) {
       const double of_pairs =
           variance.with_prior(worth.weights[r] * static_cast<double>(c.variance) * unit,
