@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "scenes.h"
+#include "support/quadrature.h"
 #include "support/statistical_tests.h"
+#include "tyndall/math/constants.h"
 
 namespace tyndall {
 namespace {
@@ -63,6 +65,73 @@ TEST_P(ChromaticTest, NoSampleIsAFirefly) {
       EXPECT_LE(largest[c], 3.0001f) << c;
     }
   }
+}
+
+class DeepChannelTest : public testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Integrators, DeepChannelTest,
+                         testing::ValuesIn(integrator_names()));
+
+const Vec3 lamp{2, 3, -3};
+constexpr float intensity = 20;
+
+// From the centre line of a ball of radius one around the origin, at height z.
+double single_scattering(double sigma, double z) {
+  const double to_lamp = std::sqrt(4 + 9 + (-3 - z) * (-3 - z));
+  const double cosine = z * (-3 - z) / to_lamp;  // times the distance from the centre
+  const double way_out = -cosine + std::sqrt(cosine * cosine + 1 - z * z);
+  return sigma * std::exp(-sigma * (z + 1 + way_out)) * double{inv_4pi} *
+         double{intensity} / (to_lamp * to_lamp);
+}
+
+// One channel of the ball lets nothing through, as the mean of the channels does: what the
+// others let through must not be lost.
+TEST_P(DeepChannelTest, LeavesTheOtherChannelsTheirLight) {
+  for (const Rgb sigma : {Rgb{1, 0.1f, 1000}, Rgb{0.1f, 1000, 1}, Rgb{1000, 1, 0.1f}}) {
+    SceneDescription d;
+    const Vec3 eye{0, 0, -4};
+    d.camera = test::camera(eye, {0, 0, 0});
+    d.media.push_back(Medium(HomogeneousMedium({Rgb(0), sigma, Rgb(0)}, IsotropicPhase{})));
+    d.surfaces.push_back(test::boundary_sphere(1));
+    d.lights.push_back(Light(PointLight{lamp, Rgb(intensity)}));
+    const Scene scene(std::move(d));
+    const RunningMoments found =
+        test::estimate(scene, test::settings(GetParam(), 1), 30'000, [&](Sampler&) {
+          return Ray{eye, {0, 0, 1}};
+        });
+    const auto f = [&](double z) { return single_scattering(double{sigma.r}, z); };
+    const double truth = quadrature(f, -1, -0.98) + quadrature(f, -0.98, 1);
+    EXPECT_GT(z_p_value(found, truth), sidak(0.01, 15))
+        << sigma.r << ": " << found.mean() << " +- " << found.standard_error() << " and "
+        << truth;
+    EXPECT_LT(found.standard_error(), 0.05 * truth);
+  }
+}
+
+// The same in a room that is filled with it, where light comes by way of the walls, too.
+TEST_P(DeepChannelTest, LeavesTheOthersTheLightOfWalls) {
+  const auto look = [](const std::string& integrator) {
+    SceneDescription d;
+    const Vec3 eye{0, 0, -1.9f};
+    d.camera = test::camera(eye, {0, 0, 0});
+    d.camera_medium = 0;
+    const MediumProperties fog{Rgb{0.05f, 0, 0}, Rgb{0.1f, 0.3f, 1000}, Rgb(0)};
+    d.media.push_back(Medium(HomogeneousMedium(fog, IsotropicPhase{})));
+    Surface wall = test::boundary_box(2, 0, 0);
+    wall.material = DiffuseBsdf{Rgb(0.5f)};
+    d.surfaces.push_back(wall);
+    d.lights.push_back(Light(PointLight{{0.5f, 1, 0}, Rgb(2)}));
+    const Scene scene(std::move(d));
+    return test::estimate(
+        scene, test::settings(integrator, 3), 60'000, [&](Sampler& sampler) {
+          return Ray{
+              eye, normalize(Vec3{sampler.next_1d() - 0.5f, sampler.next_1d() - 0.5f, 1})};
+        });
+  };
+  const RunningMoments truth = look("volpath"), found = look(GetParam());
+  EXPECT_GT(welch_p_value(found, truth), sidak(0.01, 5))
+      << found.mean() << " +- " << found.standard_error() << " and " << truth.mean()
+      << " +- " << truth.standard_error();
+  EXPECT_LT(found.standard_error(), 0.05 * truth.mean());
 }
 
 }  // namespace

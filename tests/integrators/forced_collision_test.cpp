@@ -35,7 +35,9 @@ TEST(LegProxy, SamplesCollisions) {
   const double share = 1 - std::exp(-(2 * 0.2 + 2 * 0.9));
   EXPECT_NEAR(double{proxy.collision_share()}, share, 1e-6);
   const ChiSquareResult result = chi_square_line(
-      [&](float u) -> std::optional<float> { return proxy.sample(u)->t; },
+      [&](float u) -> std::optional<float> {
+        return proxy.sample(u, proxy.collision_share())->t;
+      },
       [&](double t) { return proxy.collision_pdf_t(static_cast<float>(t)) / share; }, 2, 8);
   EXPECT_GT(result.p_value, sidak(0.01, 6)) << result;
   EXPECT_NEAR(result.mass, 1, 1e-3);
@@ -61,7 +63,8 @@ TEST(LegProxy, CollisionsHaveTheMeanDistanceOfTheMedia) {
   double mean = 0;
   constexpr int n = 1 << 14;
   for (int i = 0; i < n; ++i) {
-    const auto s = proxy.sample((static_cast<float>(i) + 0.5f) / n);
+    const auto s =
+        proxy.sample((static_cast<float>(i) + 0.5f) / n, proxy.collision_share());
     ASSERT_TRUE(s);
     EXPECT_NEAR(s->pdf_t, proxy.collision_pdf_t(s->t) / proxy.collision_share(),
                 1e-4f * s->pdf_t);
@@ -75,7 +78,7 @@ TEST(CollisionDistance, IsBinnedByWhatIsForeseen) {
   const Scene scene(nested_balls());
   Leg leg(scene, through, nullptr);
   const LegProxy proxy(leg);
-  const CollisionDistance collision(proxy);
+  const CollisionDistance collision(proxy, far_distance);
   const std::array<float, 64> taps = collision.taps<64>();
   for (int i = 0; i < 64; ++i) {
     const float u = (static_cast<float>(i) + 0.5f) / 64;
@@ -100,8 +103,8 @@ TEST(LegProxy, HasNoCollisionsInEmptySpace) {
   Leg leg(scene, through, nullptr);
   const LegProxy proxy(leg);
   EXPECT_EQ(proxy.collision_share(), 0);
-  EXPECT_FALSE(proxy.sample(0.5f));
-  EXPECT_FALSE(LegProxy().sample(0.5f));
+  EXPECT_FALSE(proxy.sample(0.5f, proxy.collision_share()));
+  EXPECT_FALSE(LegProxy().sample(0.5f, 0));
 }
 
 class ForcedCollisionTest : public testing::TestWithParam<std::string> {};

@@ -53,8 +53,7 @@ ConnectionContext::ConnectionContext(const Scene& scene, const ConnectionSetting
   if (settings.lit_surfaces > 0) lit_.emplace(scene, settings.lit_surfaces, lit_places);
   if (settings.direction) guiding_ = std::make_unique<DirectionGuiding>(scene, settings);
   const Medium* filling = scene.filling_medium();
-  if (filling && filling->is_homogeneous())
-    filling_sigma_t_ = luminance(filling->at({}).sigma_t());
+  if (filling && filling->is_homogeneous()) filling_sigma_t_ = filling->at({}).sigma_t();
   for (const Medium& medium : scene.description().media) {
     const float g = medium.phase().mean_cosine();
     std::unique_ptr<const ScatteringTables>& tables = by_mean_cosine_[g];
@@ -215,7 +214,7 @@ const ConnectionLeg::Double* ConnectionLeg::dual(size_t light) {
 const ConnectionLeg::Forced* ConnectionLeg::forced(size_t light) {
   if (is_empty() || !(proxy_.collision_share() > 0)) return nullptr;
   if (forced_ && forced_->first == light) return &forced_->second;
-  const CollisionDistance base(proxy_);
+  const CollisionDistance base(proxy_, t_max_);
   auto factors = DistanceWeights<32>::ones();
   if (const LightVisibility* visibility = context_->visibility()) {
     const std::array<float, 64> taps = base.taps<64>();

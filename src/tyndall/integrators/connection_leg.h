@@ -14,6 +14,7 @@
 #include "tyndall/integrators/leg_proxy.h"
 #include "tyndall/integrators/light_visibility.h"
 #include "tyndall/integrators/lit_surface.h"
+#include "tyndall/media/tracking.h"
 #include "tyndall/scene/light_choice.h"
 #include "tyndall/techniques/binned_distance.h"
 #include "tyndall/techniques/double_scattering_distance.h"
@@ -45,9 +46,16 @@ class ConnectionContext {
   /// Null if lit surfaces are not connected to.
   const LitSurfaceSampling* lit_surfaces() const { return lit_ ? &*lit_ : nullptr; }
   /// The transmittance over a distance, as the densities of walks have it, where one
-  /// homogeneous medium fills the scene; elsewhere one.
+  /// homogeneous medium fills the scene; elsewhere one. Never zero: nothing that a walk
+  /// finds may have all of its densities zero.
   float filling_transmittance(float distance) const {
-    return filling_sigma_t_ > 0 ? std::exp(-filling_sigma_t_ * distance) : 1;
+    constexpr float least = 1e-20f;
+    const Rgb sigma_t = filling_sigma_t_;
+    if (is_black(sigma_t)) return 1;
+    const bool is_grey = sigma_t.r == sigma_t.g && sigma_t.g == sigma_t.b;
+    const float T = is_grey ? std::exp(-sigma_t.r * distance)
+                            : average(exp(-1 * optical_depth(sigma_t, distance)));
+    return std::max(T, least);
   }
   /// Null if directions are not learned.
   const DirectionGuiding* guiding() const { return guiding_.get(); }
@@ -66,7 +74,7 @@ class ConnectionContext {
   LightChoice light_choice_;
   std::shared_ptr<const LightVisibility> visibility_;
   bool foresees_far_lights_ = false;
-  float filling_sigma_t_ = 0;
+  Rgb filling_sigma_t_;
   std::optional<LitSurfaceSampling> lit_;
   std::unique_ptr<DirectionGuiding> guiding_;
   // Sorted: looked up for every connection, and seldom in the processor's caches.
@@ -118,9 +126,9 @@ class ConnectionLeg {
   /// first legs that a walk may well pass without one, and on all where it is predicted
   /// what lights at infinity see.
   bool forces_collisions() const { return forces_collisions_; }
-  /// Whether the light is one of those.
-  bool is_forced(size_t light) {
-    return forces_collisions_ && forced_light_probability(light) > 0;
+  /// Whether the light is one of those, and t is where collisions are forced.
+  bool is_forced(size_t light, float t) {
+    return forces_collisions_ && t <= t_max_ && forced_light_probability(light) > 0;
   }
   const Ray& ray() const { return ray_; }
   const LegProxy& proxy() const { return proxy_; }

@@ -39,7 +39,7 @@ void LegProxy::Cursor::move_to(float t) {
   const bool is_inside = t >= piece.t_min && t <= piece.t_max;
   sigma_t_ = is_inside ? piece.sigma_t : 0;
   medium_ = is_inside ? piece.medium : nullptr;
-  transmittance_ = std::exp(-(piece.depth + piece.sigma_t * inside));
+  depth_ = piece.depth + piece.sigma_t * inside;
 }
 
 float LegProxy::collision_pdf_t(float t) const {
@@ -48,8 +48,7 @@ float LegProxy::collision_pdf_t(float t) const {
   return cursor.sigma_t() * cursor.transmittance();
 }
 
-std::optional<DistanceSample> LegProxy::sample(float u) const {
-  const float share = collision_share();
+std::optional<DistanceSample> LegProxy::sample(float u, float share) const {
   if (!(share > 0)) return std::nullopt;
   const float depth = -std::log1p(-u * share);
   for (const Piece& piece : pieces_) {
@@ -63,8 +62,7 @@ std::optional<DistanceSample> LegProxy::sample(float u) const {
   return std::nullopt;
 }
 
-void LegProxy::sample_roughly(std::span<float> u) const {
-  const float share = collision_share();
+void LegProxy::sample_roughly(std::span<float> u, float share) const {
   // Of thin media, whose transmittance is all but one, two terms say more.
   const bool is_thin = share < 1e-2f;
   for (float& x : u) {
@@ -79,8 +77,10 @@ void LegProxy::sample_roughly(std::span<float> u) const {
   }
 }
 
-float LegProxy::collision_share() const {
-  return pieces_.empty() ? 0 : -std::expm1(-pieces_.back().end_depth());
+float LegProxy::collision_share(float t) const {
+  Cursor cursor(*this);
+  cursor.move_to(t);
+  return -std::expm1(-cursor.depth());
 }
 
 float LegProxy::transmittance(float t) const {

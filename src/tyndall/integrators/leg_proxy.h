@@ -2,6 +2,7 @@
 #pragma once
 
 #include <boost/container/small_vector.hpp>
+#include <cmath>
 #include <span>
 
 #include "tyndall/integrators/leg.h"
@@ -35,26 +36,27 @@ class LegProxy {
     explicit Cursor(const LegProxy& proxy) : proxy_(&proxy) {}
     void move_to(float t);
     float sigma_t() const { return sigma_t_; }  ///< [1/scene unit]
-    float transmittance() const { return transmittance_; }
+    float depth() const { return depth_; }      ///< optical
+    float transmittance() const { return std::exp(-depth_); }
     const Medium* medium() const { return medium_; }  ///< null outside all
 
    private:
     const LegProxy* proxy_;
     size_t piece_ = 0;
-    float sigma_t_ = 0, transmittance_ = 1;
+    float sigma_t_ = 0, depth_ = 0;
     const Medium* medium_ = nullptr;
   };
 
   /// Density with which a walk collides at t [1/scene unit].
   float collision_pdf_t(float t) const;
-  /// A distance for u in [0, 1), with the density collision_pdf_t() / collision_share():
-  /// empty if nothing scatters.
-  std::optional<DistanceSample> sample(float u) const;
+  /// A distance for u in [0, 1), with the density collision_pdf_t() / share, up to where
+  /// that share of the light has collided: empty if nothing scatters.
+  std::optional<DistanceSample> sample(float u, float share) const;
   /// Puts the distances of sample() for ascending `u` in their place, to choose a density
   /// by: to about 1e-4 of the way. Precondition: not empty.
-  void sample_roughly(std::span<float> u) const;
-  /// The share of the light that the leg does not let through.
-  float collision_share() const;
+  void sample_roughly(std::span<float> u, float share) const;
+  /// The share of the light that the leg does not let through, up to t.
+  float collision_share(float t = far_distance) const;
   float transmittance(float t) const;
   /// Null where nothing scatters.
   const Medium* medium_at(float t) const;

@@ -122,7 +122,7 @@ void Path::connect_vertex() {
 // Whether next event estimation at the current vertex would have the weight zero.
 bool Path::is_left_to_connections(size_t light) {
   if (!rules_.connections || !vertex_->is_in_medium()) return false;
-  return leg_->is_forced(light) || leg_->reaches_single(light, t_vertex_);
+  return leg_->is_forced(light, t_vertex_) || leg_->reaches_single(light, t_vertex_);
 }
 
 // Of next event estimation at the current vertex.

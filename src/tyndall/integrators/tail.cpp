@@ -49,11 +49,12 @@ LegStart start_of_leg(const Vertex& vertex, float t, float pdf_direction,
 TailDensities tail_densities(const ConnectionContext& context, const TailCounts& counts,
                              ConnectionLeg& before, const LegStart& x, ConnectionLeg& leg,
                              float t, const LightEnd& end) {
-  const float collision = leg.proxy().collision_pdf_t(t);
-  TailDensities densities{.direct = collision * end.probability * end.pdf,
-                          .hit = collision * end.pdf_direction};
-  if (!leg.reaches_single(end.light, t)) {
-    if (!leg.is_forced(end.light)) return densities;
+  // After the same walk; its density, which the proxy may take for zero, is left out.
+  TailDensities densities{.direct = end.probability * end.pdf, .hit = end.pdf_direction};
+  const bool is_single = leg.reaches_single(end.light, t);
+  if (!is_single && !leg.is_forced(end.light, t)) return densities;
+  densities.hit *= leg.proxy().collision_pdf_t(t);
+  if (!is_single) {
     const ConnectionLeg::Forced* forced = leg.forced(end.light);
     densities.direct = 0;
     densities.forced = forced ? forced->pdf_t(t) * leg.forced_light_probability(end.light) *
