@@ -12,9 +12,9 @@ namespace tyndall {
 /// Stands for infinity where a product with zero must stay zero [scene units].
 inline constexpr float far_distance = 1e30f;
 
-/// Rays between two points stop short of the second by this share of their length, lest
-/// they hit what is there, and by rounded_end().
-inline constexpr float shadow_shortening = 1e-4f;
+/// Rays between two points stop short of the second by this share of their length, for the
+/// rounding of the length itself, and by rounded_end().
+inline constexpr float shadow_shortening = 1e-6f;
 
 /// The straight way of light from a vertex to the first surface that is not a mere
 /// boundary, cut into spans of one medium each. Traced once somebody asks.

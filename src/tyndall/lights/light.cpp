@@ -12,6 +12,10 @@
 namespace tyndall {
 namespace {
 
+// Of the coordinates of who looks: so far before a point light that lies on a surface the
+// roundings of both may place that surface.
+constexpr float on_surface = 1e-6f;
+
 /// Cubic step from 0 at `a` to 1 at `b`; a jump if they are equal.
 float smooth_step(float x, float a, float b) {
   if (!(a < b)) return x < b ? 0 : 1;
@@ -41,7 +45,12 @@ std::optional<LightSample> sample_from_point(Vec3 light_p, Vec3 p, Intensity int
   if (!(distance > 0)) return std::nullopt;
   const Vec3 wi = d / distance;
   const float inv = 1 / distance;
-  return if_it_shines({wi, distance, intensity(-wi) * inv * inv, 1, true});
+  return if_it_shines({.wi = wi,
+                       .distance = distance,
+                       .L = intensity(-wi) * inv * inv,
+                       .pdf = 1,
+                       .is_delta = true,
+                       .rounded_end = on_surface * max_component(abs(p))});
 }
 
 std::optional<LightSample> draw(const PointLight& light, Vec3 p, Vec2) {
