@@ -102,6 +102,8 @@ TEST_P(BoundsTest, MajorantsHoldAlongRays) {
   const Transform world_from_medium = random_transform(rng, GetParam());
   const GridMedium medium({grid, Transform(), box}, world_from_medium,
                           {Rgb(0), Rgb(1), Rgb(0)}, IsotropicPhase{});
+  // All of a stretch through the corner of a cell is near its ends.
+  const float corner = 3e-3f * length(world_from_medium.vector({1, 0, 0}));
   int segment_count = 0;
   for (int i = 0; i < 400; ++i) {
     const RayStart start = all_ray_starts[i % 4];
@@ -113,7 +115,8 @@ TEST_P(BoundsTest, MajorantsHoldAlongRays) {
         // Within the cell, beyond the reach of rounding at its faces.
         const float f = 0.01f + 0.98f * static_cast<float>(k) / 100;
         const float x = s.t_min + (s.t_max - s.t_min) * f;
-        const float slack = k < 5 || k > 95 ? 1e-3f * grid->maximum() : 0;
+        const bool is_near_end = k < 5 || k > 95 || s.t_max - s.t_min < corner;
+        const float slack = is_near_end ? 1e-3f * grid->maximum() : 0;
         ASSERT_LE(segments.density(x), s.majorant.r * 1.00001f + slack);
       }
   }

@@ -88,14 +88,17 @@ TEST_P(PlacedGridTest, MajorantsHoldWithoutClamping) {
   for (int i = 0; i < 50; ++i) {
     const Ray ray = random_ray(rng, start(), box, world_from_medium);
     auto segments = medium.segments(ray, infinity);
+    const float corner = 3e-3f * length(world_from_medium.vector(box.diagonal())) / 70;
     MediumSegment s;
     while (segments.next(s)) {
       const float majorant = s.majorant.r / red.sigma_t().r;
       for (int k = 1; k < 50; ++k) {
         const float f = static_cast<float>(k) / 50;
         const float x = s.t_min + (s.t_max - s.t_min) * f;
-        // Near its ends rounding may push a point into the next cell.
-        const float slack = f < 0.05f || f > 0.95f ? 1e-3f * largest_value(grid) : 0;
+        // Near its ends rounding may push a point into the next cell; all of a stretch
+        // through the corner of a cell is near them.
+        const bool is_near_end = f < 0.05f || f > 0.95f || s.t_max - s.t_min < corner;
+        const float slack = is_near_end ? 1e-3f * largest_value(grid) : 0;
         ASSERT_LE(segments.density(x), majorant * 1.00001f + slack);
       }
     }
@@ -135,6 +138,10 @@ TEST_P(PlacedGridTest, InterpolatesAsDefined) {
     const double error =
         rounding_error(world_from_medium, p_world, grid.resolution, maximum);
     const MediumProperties found = medium.at(p_world);
+    if (medium.is_reduced()) {
+      EXPECT_LE(found.sigma_s.g, 2 * (expected + error));
+      continue;
+    }
     EXPECT_NEAR(found.sigma_s.g, 2 * expected, 2 * error);
     EXPECT_NEAR(found.sigma_a.r, 0.5 * expected, 0.5 * error);
     EXPECT_EQ(found.sigma_s.b, 0);

@@ -185,6 +185,34 @@ TEST(TransmittanceTest, StaysInItsPromisedRange) {
   }
 }
 
+// One sample among ones is so large that a walk with its bound all over the cell would take
+// thousands of times as many steps as is good, and end by chance of a step that is too
+// small to be one in float: never.
+TEST(TransmittanceTest, OneHugeSampleIsNoObstacle) {
+  DensityGrid grid{{8, 8, 8}, std::vector<float>(512, 1)};
+  grid.values[200] = 1e8f;
+  const Medium medium(GridMedium(grid, {{-1, -1, -1}, {1, 1, 1}}, Transform(),
+                                 {Rgb(0.1f), Rgb(1), {}}, IsotropicPhase{}));
+  // Sample 200 is the first of its row, at (-7/8, -5/8, -1/8). The first ray goes past it
+  // through the cells that it shares, the second into it.
+  for (const bool goes_past : {true, false}) {
+    const Ray ray{{-2, goes_past ? -0.2f : -0.6f, -0.2f}, {1, 0, 0}};
+    const double truth =
+        goes_past ? std::exp(-1.1 * reference_optical_depth(grid, {{-1, -1, -1}, {1, 1, 1}},
+                                                            Transform(), ray, 4))
+                  : 0;
+    for (const TransmittanceMethod method :
+         {TransmittanceMethod::ratio_tracking,
+          TransmittanceMethod::residual_ratio_tracking}) {
+      RandomStream rng(hash(7, goes_past, method));
+      RunningMoments found;
+      for (int i = 0; i < 20'000; ++i)
+        found.add(double{estimate_transmittance(medium, ray, 4, rng, method).r});
+      EXPECT_NEAR(found.mean(), truth, 5 * found.standard_error() + 1e-6);
+    }
+  }
+}
+
 TEST(TransmittanceTest, IsExactInHomogeneousMedia) {
   RandomStream rng(9);
   const Medium medium(HomogeneousMedium({{1, 0, 0.5f}, {1, 0, 0}, {}}, IsotropicPhase{}));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <memory>
 
 #include "tyndall/geometry/cell_walk.h"
@@ -45,12 +46,18 @@ class GridMedium {
 
     bool next(MediumSegment& segment) {
       CellWalk::Step step;
-      while (walk_.next(step)) {
+      while (is_in_samples_ || walk_.next(step)) {
+        if (is_in_samples_) {
+          if (next_among_samples(segment)) return true;
+          continue;
+        }
         const MajorantCell& cell = medium_->majorants_->cell(step.cell);
         if (cell.majorant == 0) continue;
-        majorant_ = cell.majorant;
-        segment = {t_offset_ + step.t_min, t_offset_ + step.t_max,
-                   medium_->sigma_t_ * cell.majorant, medium_->sigma_t_ * cell.mean};
+        if (medium_->is_rough(cell, step.t_max - step.t_min)) {
+          look_closer(step);
+          continue;
+        }
+        take(cell, step, segment);
         return true;
       }
       return false;
@@ -69,12 +76,24 @@ class GridMedium {
     float density(float t) const { return medium_->density(ray_.at(t - t_offset_)); }
 
    private:
+    void take(const MajorantCell& cell, const CellWalk::Step& step,
+              MediumSegment& segment) {
+      majorant_ = std::min(cell.majorant, medium_->largest_);
+      segment = {t_offset_ + step.t_min, t_offset_ + step.t_max,
+                 medium_->sigma_t_ * majorant_,
+                 medium_->sigma_t_ * std::min(cell.mean, majorant_)};
+    }
+    void look_closer(const CellWalk::Step& step);
+    bool next_among_samples(MediumSegment& segment);
+
     const GridMedium* medium_;
     Ray world_ray_;
     GridRay ray_;
     float t_offset_ = 0;
     float majorant_ = 0;  // of the density in the last segment
     CellWalk walk_;
+    bool is_in_samples_ = false;  // in a rough cell: on the way between its samples
+    CellWalk among_samples_;
   };
 
   MediumProperties at(Vec3 p) const { return properties(density(space_.point(p)), p); }
@@ -84,6 +103,9 @@ class GridMedium {
     return tyndall::is_grey(properties_.sigma_a) && tyndall::is_grey(properties_.sigma_s);
   }
   const PhaseFunction& phase() const { return phase_; }
+  /// Whether there are densities so large that they were reduced: to an optical depth of
+  /// 1e12 from one sample to the next. Nothing is seen of that, but walks end.
+  bool is_reduced() const { return density_->maximum() > largest_; }
   size_t memory() const {
     return density_->memory() + majorants_->memory() +
            (emission_ ? emission_->memory() : 0);
@@ -96,7 +118,14 @@ class GridMedium {
 
  private:
   float density(Vec3 p_grid) const {
-    return box_.contains(p_grid) ? density_->interpolate(p_grid) : 0;
+    return box_.contains(p_grid) ? std::min(density_->interpolate(p_grid), largest_) : 0;
+  }
+  /// Whether a ray over this length of the cell would meet its majorant so often, and
+  /// mostly in vain, that bounds of their own for all samples are worth finding.
+  bool is_rough(const MajorantCell& cell, float length) const {
+    constexpr float many = 64, in_vain = 8;
+    return cell.majorant * max_component(sigma_t_) * length > many &&
+           cell.majorant > in_vain * cell.mean;
   }
   MediumProperties properties(float density, Vec3 p) const {
     const bool varies = emission_ && density > 0;
@@ -113,6 +142,7 @@ class GridMedium {
   Bounds3 world_bounds_;
   MediumProperties properties_;
   Rgb sigma_t_;
+  float largest_ = infinity;
   PhaseFunction phase_;
 };
 

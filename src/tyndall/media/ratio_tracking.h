@@ -59,15 +59,16 @@ float grey_ratio_tracking(const M& medium, const Ray& ray, float t_max, RandomSt
       product *= 1 / survival;
     }
     const float residual = std::max(majorant - control, control);
-    float t = s.t_min;
+    SegmentPosition position(s);
     while (true) {
-      const float left = residual * (s.t_max - t);
+      const float left = residual * position.rest();
       if (remaining >= left) {
         remaining -= left;
         break;
       }
-      t = std::min(t + remaining / residual, s.t_max);
-      product *= std::max(1 - (segments.sigma_t(t).r - control) / residual, 0.0f);
+      position.advance(remaining / residual);
+      product *=
+          std::max(1 - (segments.sigma_t(position.t()).r - control) / residual, 0.0f);
       if (control == 0) product = play_roulette(Rgb(product), rng).r;
       if (product == 0) return 0;
       remaining = sample_optical_depth(rng);
@@ -90,17 +91,17 @@ Rgb ratio_tracking(const M& medium, const Ray& ray, float t_max, RandomStream& r
   float remaining = sample_optical_depth(rng);
   Rgb product(1);
   while (segments.next(s)) {
-    float t = s.t_min;
+    SegmentPosition position(s);
     while (true) {
       const float majorant = largest_alive(s.majorant, product);
-      const float depth = majorant * (s.t_max - t);
+      const float depth = majorant * position.rest();
       if (remaining >= depth) {
         remaining -= depth;
         break;
       }
-      t = std::min(t + remaining / majorant, s.t_max);
+      position.advance(remaining / majorant);
       // Dead channels may be above the majorant, live ones only by a rounding error.
-      product *= clamp_negative(Rgb(1) - segments.sigma_t(t) / majorant);
+      product *= clamp_negative(Rgb(1) - segments.sigma_t(position.t()) / majorant);
       product = play_roulette(product, rng);
       if (is_black(product)) return product;
       remaining = sample_optical_depth(rng);
@@ -131,15 +132,16 @@ Rgb residual_ratio_tracking(const M& medium, const Ray& ray, float t_max,
     // |sigma_t - control| is at most this, so that no factor leaves [0, 2].
     const float residual = std::max(largest_alive(s.majorant - control, product),
                                     largest_alive(control, product));
-    float t = s.t_min;
+    SegmentPosition position(s);
     while (true) {
-      const float depth = residual * (s.t_max - t);
+      const float depth = residual * position.rest();
       if (remaining >= depth) {
         remaining -= depth;
         break;
       }
-      t = std::min(t + remaining / residual, s.t_max);
-      product *= clamp_negative(Rgb(1) - (segments.sigma_t(t) - control) / residual);
+      position.advance(remaining / residual);
+      product *=
+          clamp_negative(Rgb(1) - (segments.sigma_t(position.t()) - control) / residual);
       remaining = sample_optical_depth(rng);
     }
   }

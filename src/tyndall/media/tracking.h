@@ -17,6 +17,22 @@ inline Rgb optical_depth(Rgb sigma, float length) {
           sigma.b != 0 ? sigma.b * length : 0};
 }
 
+/// Where a walk stands in a segment. In double: in media so dense that a free flight is
+/// shorter than the floats there lie apart, it must get on all the same.
+class SegmentPosition {
+ public:
+  explicit SegmentPosition(const MediumSegment& segment)
+      : t_(double{segment.t_min}), t_max_(double{segment.t_max}) {}
+
+  float t() const { return static_cast<float>(t_); }
+  /// The length that is left of the segment.
+  float rest() const { return static_cast<float>(t_max_ - t_); }
+  void advance(float length) { t_ = std::min(t_ + double{length}, t_max_); }
+
+ private:
+  double t_, t_max_;
+};
+
 /// An exponentially distributed optical depth of mean one.
 inline float sample_optical_depth(RandomStream& rng) {
   return -std::log(1 - rng.next_1d());
@@ -45,22 +61,23 @@ Rgb sample_collisions(const M& medium, const Ray& ray, float t_max, int hero,
   while (segments.next(s)) {
     const float majorant = s.majorant[hero];
     const Rgb beyond = s.majorant - Rgb(majorant);
-    float t = s.t_min;
+    SegmentPosition position(s);
     while (majorant > 0) {
-      const float depth = majorant * (s.t_max - t);
+      const float depth = majorant * position.rest();
       if (remaining >= depth) {
         remaining -= depth;
         break;
       }
-      const float t_start = t;
-      t = std::min(t + remaining / majorant, s.t_max);
-      if (!is_grey) excess += optical_depth(beyond, t - t_start);
+      const float flight = remaining / majorant;
+      position.advance(flight);
+      if (!is_grey) excess += optical_depth(beyond, flight);
+      const float t = position.t();
       if (!on_collision(t, segments.at(t), s.majorant, is_grey ? Rgb(1) : exp(-1 * excess)))
         return Rgb(0);
       excess = Rgb(0);
       remaining = sample_optical_depth(rng);
     }
-    if (!is_grey) excess += optical_depth(beyond, s.t_max - t);
+    if (!is_grey) excess += optical_depth(beyond, position.rest());
   }
   return is_grey ? Rgb(1) : exp(-1 * excess);
 }
