@@ -43,9 +43,16 @@ double lit_share(const VisibilityMap& map) {
   return static_cast<double>(lit) / (4.0 * map.rows() * map.rows());
 }
 
+bool holds_nothing(const GuidingFile& file) {
+  const bool is_trained = file.records && file.records->statistics().trained_guides > 0;
+  return file.maps.empty() && !is_trained;
+}
+
 void print_statistics(const GuidingFile& file) {
   const double share = file.seconds > 0 ? file.training_seconds / file.seconds : 0;
   fmt::print("time       {:.2f} s, {:.1f} % of it training\n", file.seconds, 100 * share);
+  if (holds_nothing(file))
+    fmt::print("nothing    was learned: no visibility maps, no trained mixtures\n");
   for (const auto& [light, map] : file.maps)
     fmt::print(
         "light {:<4} visibility map {}x{}, {:.1f} MB, floor {:g}, {:.1f} % of its "

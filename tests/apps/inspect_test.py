@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What tyndall inspect prints and draws, and what it says about files that it cannot read."""
 
+import json
 import re
 import unittest
 
@@ -75,6 +76,25 @@ class InspectTest(ProgramTest):
             result = self.inspect("a.guide", *arguments)
             self.assertEqual(result.returncode, 1, arguments)
             self.assertTrue(result.stderr.startswith(f"error: {message}\n"), result.stderr)
+
+    def test_scenes_that_give_no_reason_to_learn(self):
+        self.write("open.pbrt", FOG)
+        result = self.run_program("render", "open.pbrt", "-o", "b.exr", "--integrator", "learned",
+                                  "--spp", "1", "--dump-guiding", "b.guide", "--stats", "json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        note = ("neither distances nor directions were learned: surfaces hide 0 % of the light "
+                "from what the picture shows, and below 30 % learning gains less than it costs")
+        self.assertEqual(json.loads(result.stdout)["notes"], [note])
+        self.assertIn(f"note: {note}\n", result.stderr)
+        result = self.inspect("b.guide")
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        self.assertEqual(result.stdout.splitlines()[1:],
+                         ["nothing    was learned: no visibility maps, no trained mixtures"])
+        result = self.inspect("b.guide", "-o", "map.png")
+        self.assertEqual((result.returncode, result.stderr),
+                         (2, "error: b.guide: it holds no visibility maps\n"))
+        result = self.inspect("b.guide", "--scene", "open.pbrt", "--pixel", "8,4", "-o", "d.png")
+        self.assertEqual(result.returncode, 0, result.stderr)
 
     def test_integrators_that_learn_nothing(self):
         result = self.run_program("render", "fog.pbrt", "-q", "-o", "b.exr", "--integrator",

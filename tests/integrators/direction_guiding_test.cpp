@@ -232,6 +232,14 @@ TEST(DirectionGuidingTest, AllLightsHiddenTeachNothing) {
                                      "taken"});
 }
 
+TEST(DirectionGuidingTest, SaysWhatLearningDirectionsTakes) {
+  RenderSettings settings = order_two(8);
+  settings.max_depth = 1;
+  EXPECT_EQ(render(Scene(lamp_over_disk()), settings).statistics.notes,
+            std::vector<std::string>{"no directions were learned: they are those between "
+                                     "two scattering events, and at most 1 is allowed"});
+}
+
 TEST(DirectionGuidingTest, LightsOutOfTheSceneAndHugeScenesAreNoTrouble) {
   SceneDescription d = lamp_over_disk();
   d.lights.push_back(Light(PointLight{{1e4f, 0, 0}, Rgb(1e4f)}));

@@ -103,12 +103,12 @@ uint32_t DirectionGuiding::prepare(uint32_t first) {
   return next;
 }
 
+bool DirectionGuiding::has_learned() const {
+  return settings_.known_directions || cache_.statistics().trained_guides > 0;
+}
+
 void DirectionGuiding::report(RenderStatistics& statistics) const {
   const GuidingStatistics s = cache_.statistics();
-  if (s.trained_guides == 0 && !settings_.known_directions)
-    statistics.notes.push_back(
-        "no directions were learned: no light arrived after two scattering events, or too "
-        "few samples were taken");
   const auto set = [&](const char* name, double value) {
     statistics.counters[std::string("guiding.") + name] = value;
   };
