@@ -54,10 +54,12 @@ class InspectTest(ProgramTest):
 
     def test_wrong_files(self):
         data = (self.folder / "a.guide").read_bytes()
-        cases = [(data[:-1], "it ends too early"), (data[:6], "it ends too early"),
+        cases = [(data[:-1], "it is cut off"), (data[:6], "it is cut off"),
+                 (data[:8], "it is cut off"), (data[:36], "it is cut off"),
+                 (data[:-12], "it is cut off"), (data + b"\0", "something follows its end"),
                  (b"", "it is no file of --dump-guiding"),
-                 (data[:4] + b"\2" + data[5:],
-                  "its format has version 2, this program reads version 1")]
+                 (data[:4] + b"\1" + data[5:],
+                  "its format has version 1, this program reads version 2")]
         for content, message in cases:
             (self.folder / "b.guide").write_bytes(content)
             result = self.inspect("b.guide")

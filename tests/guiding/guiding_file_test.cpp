@@ -18,6 +18,7 @@ std::vector<std::byte> written() {
   file.add_times(8, 2);
   file.add_map(3, map);
   file.add_records(RecordCache({LightCluster{}}));
+  file.finish();
   return bytes.bytes();
 }
 
@@ -54,9 +55,17 @@ TEST(GuidingFileTest, SaysWhatIsWrongWithAFile) {
   EXPECT_EQ(error_of(wrong), "it is no file of --dump-guiding");
   wrong = whole;
   wrong[4] = std::byte{9};
-  EXPECT_EQ(error_of(wrong), "its format has version 9, this program reads version 1");
-  for (const size_t size : {size_t{5}, size_t{12}, size_t{30}, whole.size() - 1})
-    EXPECT_EQ(error_of(std::span(whole).first(size)), "it ends too early") << size;
+  EXPECT_EQ(error_of(wrong), "its format has version 9, this program reads version 2");
+  wrong = whole;
+  wrong.push_back(std::byte{0});
+  EXPECT_EQ(error_of(wrong), "something follows its end");
+}
+
+// Between sections too: 8, 36 and the last one's 12 bytes before the end.
+TEST(GuidingFileTest, NoPartOfAFileIsAFile) {
+  const std::vector<std::byte> whole = written();
+  for (size_t size = 4; size < whole.size(); ++size)
+    EXPECT_EQ(error_of(std::span(whole).first(size)), "it is cut off") << size;
 }
 
 TEST(GuidingFileTest, RefusesDamagedSectionsAndSkipsUnknownOnes) {

@@ -13,8 +13,8 @@
 namespace tyndall {
 
 /// Writes the file of what a render has learned: a magic number, a version, then sections,
-/// each with a name of four letters and its length. Readers skip sections that they do not
-/// know.
+/// each with a name of four letters and its length, the last one an empty mark. Readers
+/// skip sections that they do not know.
 class GuidingFileWriter {
  public:
   explicit GuidingFileWriter(ByteWriter& out);
@@ -22,6 +22,8 @@ class GuidingFileWriter {
   void add_times(double seconds, double training_seconds);
   void add_map(size_t light, const VisibilityMap& map);
   void add_records(const RecordCache& records);
+  /// To be called once, at the end: files without its mark are taken to be cut off.
+  void finish();
 
  private:
   void add(uint32_t name, const std::function<void(ByteWriter&)>& write);

@@ -102,6 +102,7 @@ class RenderJob {
     GuidingFileWriter file(bytes);
     file.add_times(statistics_.seconds, statistics_.training_seconds);
     integrator_->dump(file);
+    file.finish();
     return bytes.bytes();
   }
 
