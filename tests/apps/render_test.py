@@ -66,6 +66,15 @@ class OutputTest(ProgramTest):
         ndc = file["worldToNDC"] @ [0, 0, 0, 1]
         np.testing.assert_allclose(ndc[:2] / ndc[3], [0.5, 0.5], atol=1e-5)
 
+    def test_a_link_is_the_file_that_it_leads_to(self):
+        (self.folder / "b.guide").symlink_to("a.exr")
+        for arguments in (["-o", "a.exr", "--dump-guiding", "b.guide"],
+                          ["-o", str(self.folder / "a.exr"), "--dump-guiding", "b.guide"]):
+            result = self.run_program("render", "fog.pbrt", *arguments)
+            self.assertEqual((result.returncode, result.stderr),
+                             (1, f"error: {arguments[1]} and b.guide are the same file: one would "
+                                 "overwrite the other\n"))
+
     def test_older_file_survives_an_error(self):
         self.write("a.exr", "precious")
         self.assertEqual(self.run_program("render", "nothing.pbrt", "-o", "a.exr").returncode, 2)
@@ -84,6 +93,9 @@ class OutputTest(ProgramTest):
         self.assertEqual(statistics["paths"], 16 * 8 * 2)
         self.assertEqual(statistics["rejected"], {"not_a_number": 0, "infinite": 0, "negative": 0})
         self.assertEqual(statistics["outputs"], ["fog.exr"])
+        result = self.render("--stats", "json", "-q", "--spp", "1", "--integrator", "learned",
+                             "-o", "a.exr", "--dump-guiding", "a.guide")
+        self.assertEqual(json.loads(result.stdout)["outputs"], ["a.exr", "a.guide"])
         self.assertIs(statistics["stopped_early"], False)
         self.assertEqual(result.stderr, "")
 
@@ -208,6 +220,14 @@ class UsageTest(ProgramTest):
                    "error: --pixel: 16,0 lies outside the 16x8 picture\n")
         self.check(["fog.pbrt", "--crop", "20,0,30,8"],
                    "error: --crop: the window holds no pixel of the 16x8 picture\n")
+        same = "are the same file: one would overwrite the other\n"
+        self.check(["fog.pbrt", "-o", "a.exr", "-o", "a.exr"], f"error: a.exr and a.exr {same}")
+        self.check(["fog.pbrt", "-o", "a.exr", "--dump-guiding", "./a.exr"],
+                   f"error: a.exr and ./a.exr {same}")
+        self.check(["fog.pbrt", "--dump-guiding", "fog.exr"],
+                   f"error: fog.exr and fog.exr {same}")
+        self.check(["fog.pbrt", "--dump-guiding", "x/../fog.pbrt"],
+                   f"error: fog.pbrt and x/../fog.pbrt {same}")
         self.check(["fog.pbrt", "--set", "x"],
                    "error: --set: must be name=value, got 'x'\n" + SEE)
 
