@@ -233,8 +233,11 @@ class UsageTest(ProgramTest):
 
     def test_unknown_option_of_the_integrator(self):
         result = self.run_program("render", "fog.pbrt", "--set", "no.such=1")
-        self.assertEqual(result.returncode, 1)
-        self.assertIn("no.such", result.stderr)
+        self.assertEqual((result.returncode, result.stderr),
+                         (1, 'error: integrator "learned" has no option "no.such"; there are: '
+                             "learned.direction, learned.distance, learned.lit_surfaces, "
+                             "learned.pretraining, learned.product, learned.roulette, learned.sky, "
+                             "particles\n"))
 
     def test_help_and_version(self):
         result = self.run_program("render", "--help")

@@ -62,6 +62,27 @@ const Switches& switches_of(const std::string& integrator) {
   return integrator == "zhou2016" ? zhou2016 : plain;
 }
 
+// Without the part up to the dot.
+std::string_view short_name(std::string_view name) {
+  return name.substr(name.rfind('.') + 1);
+}
+
+// What options that do not exist could have meant: a name that is near once the part before
+// the dot, which all share, is left out; the integrators that have it; else all there are.
+std::string hint(const std::string& integrator, const std::string& name) {
+  std::vector<std::string_view> owners, short_names;
+  for (const auto& other : integrators())
+    if (switches_of(other.first).contains(name)) owners.emplace_back(other.first);
+  if (!owners.empty()) return fmt::format("; it belongs to {}", quoted_list(owners));
+  const std::vector<std::string_view> names = keys_of(switches_of(integrator));
+  for (const std::string_view n : names) short_names.push_back(short_name(n));
+  const std::string_view nearest = nearest_name(short_name(name), short_names);
+  for (const std::string_view n : names)
+    if (!nearest.empty() && short_name(n) == nearest)
+      return fmt::format("; did you mean \"{}\"?", n);
+  return fmt::format("; there are: {}", fmt::join(names, ", "));
+}
+
 bool parse_switch(const std::string& name, const std::string& value) {
   if (value == "on") return true;
   if (value == "off") return false;
@@ -92,8 +113,7 @@ ConnectionSettings connection_settings(const std::string& integrator,
     const auto entry = switches.find(name);
     if (entry == switches.end())
       throw std::invalid_argument(fmt::format("integrator \"{}\" has no option \"{}\"{}",
-                                              integrator, name,
-                                              did_you_mean(name, keys_of(switches))));
+                                              integrator, name, hint(integrator, name)));
     entry->second(settings, parse_switch(name, value));
   }
   return settings;

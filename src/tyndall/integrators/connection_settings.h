@@ -44,7 +44,8 @@ struct ConnectionSettings {
 
 /// The settings of an integrator of that name with options as `--set` gives them, by dotted
 /// name. Throws std::invalid_argument for an unknown integrator, option or value; the
-/// message names the nearest valid one.
+/// message names the nearest valid one, the integrators that have an option, or all options
+/// there are.
 ConnectionSettings connection_settings(const std::string& integrator,
                                        const std::map<std::string, std::string>& options);
 
