@@ -96,6 +96,14 @@ Image directions_picture(const InspectArguments& a, const DirectionMaps& maps) {
                                                *a.at, a.pixel->x, a.pixel->y, found));
 }
 
+void check_scene(const InspectArguments& a, const GuidingFile& file, const Scene& scene) {
+  const std::string how =
+      file.scene ? difference(*file.scene, SceneMark::of(scene)) : std::string();
+  if (!how.empty())
+    throw std::runtime_error(fmt::format("{}: it was learned in another scene than {}, {}",
+                                         a.file, a.scene, how));
+}
+
 Image pixel_picture(const InspectArguments& a, const GuidingFile& file) {
   SceneInput input(a.scene, false, true);
   LoadedScene loaded = input.load();
@@ -104,6 +112,7 @@ Image pixel_picture(const InspectArguments& a, const GuidingFile& file) {
     throw UsageError(fmt::format("--pixel: {},{} lies outside the {}x{} picture",
                                  a.pixel->x, a.pixel->y, size.x, size.y));
   const Scene scene(std::move(loaded.scene));
+  check_scene(a, file, scene);
   const Vec2 p_film{static_cast<float>(a.pixel->x) + 0.5f,
                     static_cast<float>(a.pixel->y) + 0.5f};
   const Ray ray = scene.camera().ray(p_film, {0.5f, 0.5f});

@@ -66,6 +66,23 @@ class InspectTest(ProgramTest):
             self.assertEqual((result.returncode, result.stderr),
                              (2, f"error: b.guide: {message}\n"))
 
+    def test_another_scene(self):
+        lamp = 'LightSource "point" "rgb I" [8 8 8]'
+        for name, text, how in (
+                ("lamps", SHADED.replace(lamp, lamp + "\n" + lamp), "which has 2 lights, not 1"),
+                ("small", SHADED.replace('radius" 30', 'radius" 20'),
+                 "which reaches from (-20, -20, -20) to (20, 20, 20), not from (-30, -30, -30) to "
+                 "(30, 30, 30)"),
+                ("moved", SHADED.replace("LookAt 0 0 -5", "LookAt 0 0 -6"),
+                 "whose camera stands at (0, 0, -6), not (0, 0, -5)")):
+            self.write(f"{name}.pbrt", text)
+            result = self.inspect("a.guide", "--scene", f"{name}.pbrt", "--pixel", "8,4", "-o",
+                                  "d.png")
+            self.assertEqual((result.returncode, result.stderr),
+                             (2, f"error: a.guide: it was learned in another scene than {name}.pbrt, "
+                                 f"{how}\n"))
+            self.assertNotIn("d.png", self.files())
+
     def test_wrong_arguments(self):
         for arguments, message in (
                 (["--pixel", "1,1", "-o", "d.png"], "--pixel needs --scene"),

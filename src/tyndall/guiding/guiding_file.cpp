@@ -17,13 +17,15 @@ constexpr uint32_t name_of(const char (&letters)[5]) {
 }
 
 constexpr uint32_t magic = name_of("TYGF"), times = name_of("TIME"),
-                   visibility = name_of("VISM"), records = name_of("RECS"),
-                   end = name_of("DONE");
+                   scene = name_of("SCNE"), visibility = name_of("VISM"),
+                   records = name_of("RECS"), end = name_of("DONE");
 
 void read_section(uint32_t name, ByteReader in, GuidingFile& file) {
   if (name == times) {
     in.read(file.seconds);
     in.read(file.training_seconds);
+  } else if (name == scene) {
+    file.scene = SceneMark::read(in);
   } else if (name == visibility) {
     const auto light = in.read_as<uint32_t>();
     std::optional<VisibilityMap> map = VisibilityMap::read(in);
@@ -56,6 +58,10 @@ void GuidingFileWriter::add(uint32_t name, const std::function<void(ByteWriter&)
 
 void GuidingFileWriter::add_times(double seconds, double training_seconds) {
   add(times, [&](ByteWriter& out) { out.write(seconds), out.write(training_seconds); });
+}
+
+void GuidingFileWriter::add_scene(const SceneMark& mark) {
+  add(scene, [&](ByteWriter& out) { mark.write(out); });
 }
 
 void GuidingFileWriter::add_map(size_t light, const VisibilityMap& map) {
