@@ -67,7 +67,7 @@ void print_statistics(const GuidingFile& file) {
       "records    {}, {:.0f} samples each, radius {:.3g}\n"
       "mixtures   {} of {} trained, {:.1f} effective components, leak {:.2f} %, share of "
       "samples {:.0f} %\n"
-      "memory     {:.1f} MB\n",
+      "memory     {:.2f} MB of records and mixtures; a render holds samples too\n",
       s.records, per_record, s.radius, s.trained_guides, s.guides, s.effective_components,
       100 * s.leak, 100 * s.mixture_share, 1e-6 * static_cast<double>(s.memory));
 }

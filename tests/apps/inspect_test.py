@@ -30,6 +30,8 @@ class InspectTest(ProgramTest):
         lines = result.stdout.splitlines()
         self.assertRegex(lines[0], r"^time       \d+\.\d\d s, \d+\.\d % of it training$")
         self.assertRegex(lines[1], r"^light 0    visibility map \d+x\d+, [\d.]+ MB, floor ")
+        self.assertRegex(lines[-1], r"^memory     \d+\.\d\d MB of records and mixtures; a render holds "
+                                    "samples too$")
         self.assertEqual(self.files(), ["a.exr", "a.guide", "fog.pbrt"])
 
     def test_pictures(self):

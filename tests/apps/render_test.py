@@ -99,6 +99,21 @@ class OutputTest(ProgramTest):
         self.assertIs(statistics["stopped_early"], False)
         self.assertEqual(result.stderr, "")
 
+    def test_memory_of_guiding(self):
+        disk = ('WorldBegin\nMaterial "diffuse"\nAttributeBegin\nRotate 90 1 0 0\n'
+                'Shape "disk" "float radius" 1 "float height" -.2\nAttributeEnd')
+        self.write("fog.pbrt", FOG.replace("WorldBegin", disk))
+        used = {}
+        for memory in ("1", "128"):
+            result = self.render("--stats", "json", "-q", "--size", "64x32", "--spp", "16",
+                                 "--set", f"learned.memory={memory}")
+            used[memory] = json.loads(result.stdout)["counters"]["guiding.memory_bytes"]
+        self.assertLess(used["1"], 1e6)
+        self.assertGreater(used["128"], 1e6)
+        result = self.run_program("render", "fog.pbrt", "--set", "learned.memory=0")
+        self.assertEqual((result.returncode, result.stderr),
+                         (1, 'error: option "learned.memory" is a positive number of MB, not "0"\n'))
+
     def test_quiet(self):
         result = self.render("--quiet")
         self.assertEqual((result.stdout, result.stderr), ("", ""))
@@ -236,7 +251,7 @@ class UsageTest(ProgramTest):
         self.assertEqual((result.returncode, result.stderr),
                          (1, 'error: integrator "learned" has no option "no.such"; there are: '
                              "learned.direction, learned.distance, learned.lit_surfaces, "
-                             "learned.pretraining, learned.product, learned.roulette, learned.sky, "
+                             "learned.memory, learned.pretraining, learned.product, learned.roulette, learned.sky, "
                              "particles\n"))
 
     def test_help_and_version(self):

@@ -70,8 +70,8 @@ TEST(ConnectionSettingsTest, NamesLikeNoOtherListAll) {
     EXPECT_EQ(message_of("learned", name, "off"),
               "integrator \"learned\" has no option \"" + std::string(name) +
                   "\"; there are: learned.direction, learned.distance, "
-                  "learned.lit_surfaces, learned.pretraining, learned.product, "
-                  "learned.roulette, learned.sky, particles");
+                  "learned.lit_surfaces, learned.memory, learned.pretraining, "
+                  "learned.product, learned.roulette, learned.sky, particles");
   EXPECT_EQ(message_of("volpath", "direction", "off"),
             "integrator \"volpath\" has no option \"direction\"; there are: particles");
 }
@@ -79,6 +79,22 @@ TEST(ConnectionSettingsTest, NamesLikeNoOtherListAll) {
 TEST(ConnectionSettingsTest, SwitchesAreOnOrOff) {
   EXPECT_EQ(message_of("learned", "learned.direction", "maybe"),
             "option \"learned.direction\" is \"on\" or \"off\", not \"maybe\"");
+}
+
+TEST(ConnectionSettingsTest, MemoryIsAPositiveNumberOfMegabytes) {
+  EXPECT_EQ(connection_settings("learned", {}).direction_memory, 128'000'000u);
+  for (const char* integrator : {"learned", "zhou2016"}) {
+    const auto with = [&](const char* text) {
+      return connection_settings(integrator, {{"learned.memory", text}}).direction_memory;
+    };
+    EXPECT_EQ(with("64"), 64'000'000u);
+    EXPECT_EQ(with("1e3"), 1'000'000'000u);
+    EXPECT_EQ(with("0.5"), 500'000u);
+    for (const std::string text : {"0", "-1", "nan", "inf", "1e99", "", "8MB", "on", " 1"})
+      EXPECT_EQ(
+          message_of(integrator, "learned.memory", text),
+          "option \"learned.memory\" is a positive number of MB, not \"" + text + "\"");
+  }
 }
 
 TEST(ConnectionSettingsTest, UnknownIntegratorNamesTheKnownOnes) {

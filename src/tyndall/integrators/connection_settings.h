@@ -36,7 +36,7 @@ struct ConnectionSettings {
   bool direction = false;   ///< learn the directions of dual connections
   bool product = true;      ///< ... and multiply them by the phase function
   bool pretraining = true;  ///< ... beginning with what arrives if nothing is in the way
-  size_t direction_memory = size_t{128} << 20;  ///< for what is learned [bytes]
+  size_t direction_memory = 128'000'000;  ///< at most, samples included [bytes]
   /// What is known of directions beforehand, for the light clusters of the scene; a render
   /// that is given this learns no more.
   std::shared_ptr<const RecordCache> known_directions = {};

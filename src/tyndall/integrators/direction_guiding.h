@@ -55,7 +55,6 @@ class DirectionGuiding {
   TrainingLog log_;
   bool is_recording_ = false;
   uint32_t last_prepared_ = 0;
-  size_t log_memory_ = 0;  // most so far
 };
 
 }  // namespace tyndall
