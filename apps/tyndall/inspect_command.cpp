@@ -43,9 +43,16 @@ double lit_share(const VisibilityMap& map) {
   return static_cast<double>(lit) / (4.0 * map.rows() * map.rows());
 }
 
+bool holds_nothing(const GuidingFile& file) {
+  const bool is_trained = file.records && file.records->statistics().trained_guides > 0;
+  return file.maps.empty() && !is_trained;
+}
+
 void print_statistics(const GuidingFile& file) {
   const double share = file.seconds > 0 ? file.training_seconds / file.seconds : 0;
   fmt::print("time       {:.2f} s, {:.1f} % of it training\n", file.seconds, 100 * share);
+  if (holds_nothing(file))
+    fmt::print("nothing    was learned: no visibility maps, no trained mixtures\n");
   for (const auto& [light, map] : file.maps)
     fmt::print(
         "light {:<4} visibility map {}x{}, {:.1f} MB, floor {:g}, {:.1f} % of its "
@@ -60,7 +67,7 @@ void print_statistics(const GuidingFile& file) {
       "records    {}, {:.0f} samples each, radius {:.3g}\n"
       "mixtures   {} of {} trained, {:.1f} effective components, leak {:.2f} %, share of "
       "samples {:.0f} %\n"
-      "memory     {:.1f} MB\n",
+      "memory     {:.2f} MB of records and mixtures; a render holds samples too\n",
       s.records, per_record, s.radius, s.trained_guides, s.guides, s.effective_components,
       100 * s.leak, 100 * s.mixture_share, 1e-6 * static_cast<double>(s.memory));
 }
@@ -89,6 +96,14 @@ Image directions_picture(const InspectArguments& a, const DirectionMaps& maps) {
                                                *a.at, a.pixel->x, a.pixel->y, found));
 }
 
+void check_scene(const InspectArguments& a, const GuidingFile& file, const Scene& scene) {
+  const std::string how =
+      file.scene ? difference(*file.scene, SceneMark::of(scene)) : std::string();
+  if (!how.empty())
+    throw std::runtime_error(fmt::format("{}: it was learned in another scene than {}, {}",
+                                         a.file, a.scene, how));
+}
+
 Image pixel_picture(const InspectArguments& a, const GuidingFile& file) {
   SceneInput input(a.scene, false, true);
   LoadedScene loaded = input.load();
@@ -97,6 +112,7 @@ Image pixel_picture(const InspectArguments& a, const GuidingFile& file) {
     throw UsageError(fmt::format("--pixel: {},{} lies outside the {}x{} picture",
                                  a.pixel->x, a.pixel->y, size.x, size.y));
   const Scene scene(std::move(loaded.scene));
+  check_scene(a, file, scene);
   const Vec2 p_film{static_cast<float>(a.pixel->x) + 0.5f,
                     static_cast<float>(a.pixel->y) + 0.5f};
   const Ray ray = scene.camera().ray(p_film, {0.5f, 0.5f});

@@ -56,7 +56,8 @@ void declare_quality(Command& command, RenderArguments& a) {
               [&a](const std::string& text) {
                 a.assignments.push_back(parse_assignment(text));
               },
-              "set an option of the integrator; may be repeated",
+              "set an option of the integrator, see docs/guiding.md; a name that does not "
+              "exist lists all; may be repeated",
               {.value = "NAME=VALUE", .group = group, .repeatable = true});
 }
 

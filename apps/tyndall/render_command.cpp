@@ -50,6 +50,15 @@ std::vector<std::string> output_paths(const RenderArguments& arguments,
   return {settings.output};
 }
 
+/// No file that is written may be another one, or the scene.
+void check_overwrites_nothing(const RenderArguments& arguments,
+                              const std::vector<std::string>& outputs) {
+  std::vector<std::string> files{arguments.scene};
+  files.insert(files.end(), outputs.begin(), outputs.end());
+  if (arguments.guiding) files.push_back(*arguments.guiding);
+  check_distinct(files);
+}
+
 RenderResult run_render(const Scene& scene, const RenderArguments& arguments,
                         const RenderSettings& settings, const StopOnSignal& stop) {
   ProgressPrinter printer = make_printer(arguments);
@@ -85,7 +94,10 @@ ExitCode render_and_write(const RenderArguments& arguments, const WriteOptions& 
   add_metadata(image, scene.camera(), report.settings, report.statistics, report.scene,
                report.command_line);
   write_outputs(image, report.outputs, how);
-  if (arguments.guiding) write_bytes(result.guiding, *arguments.guiding);
+  if (arguments.guiding) {
+    write_bytes(result.guiding, *arguments.guiding);
+    report.outputs.push_back(*arguments.guiding);
+  }
   print_report(report, arguments, image);
   return report.statistics.stopped_early ? ExitCode::stopped : ExitCode::done;
 }
@@ -94,6 +106,7 @@ ExitCode run_render_command(const RenderArguments& arguments,
                             const std::string& command_line) {
   const WriteOptions how = write_options(arguments);
   check_outputs(arguments.outputs);
+  check_overwrites_nothing(arguments, arguments.outputs);
   if (arguments.guiding) check_bytes_writable(*arguments.guiding);
   SceneInput input(arguments.scene, arguments.strict, arguments.quiet);
   RenderReport report;
@@ -108,6 +121,7 @@ ExitCode run_render_command(const RenderArguments& arguments,
       resized(loaded.scene.camera, size_in_file, loaded.settings.resolution);
   report.settings = loaded.settings;
   report.outputs = output_paths(arguments, report.settings);
+  check_overwrites_nothing(arguments, report.outputs);
   check_film_fits(report.settings.crop_min, report.settings.crop_max, available_memory());
   report.load_seconds = seconds_since(start);
 

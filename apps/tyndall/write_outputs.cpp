@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <map>
 
 #include "apps/tyndall/exit_code.h"
 #include "tyndall/image/whole_file.h"
@@ -25,7 +26,26 @@ std::string rescue(const Image& image) {
   }
 }
 
+/// The only spelling of a path that need not exist.
+std::filesystem::path canonical(const std::string& path) {
+  std::error_code error;
+  const auto absolute = std::filesystem::absolute(follow_links(path));
+  const auto result = std::filesystem::weakly_canonical(absolute, error);
+  return error ? absolute : result;
+}
+
 }  // namespace
+
+void check_distinct(const std::vector<std::string>& paths) {
+  std::map<std::filesystem::path, std::string> seen;
+  for (const std::string& path : paths) {
+    const auto [other, is_new] = seen.emplace(canonical(path), path);
+    if (!is_new)
+      throw UsageError(
+          fmt::format("{} and {} are the same file: one would overwrite the other",
+                      other->second, path));
+  }
+}
 
 void check_outputs(const std::vector<std::string>& paths) {
   for (const std::string& path : paths) {

@@ -14,6 +14,9 @@ namespace tyndall::app {
 /// one of the files could not be written. Leaves nothing behind.
 void check_outputs(const std::vector<std::string>& paths);
 
+/// Throws UsageError if two paths lead to the same file, however they are spelled.
+void check_distinct(const std::vector<std::string>& paths);
+
 /// Writes all the files. If one fails, the image goes as EXR to the folder of temporary
 /// files instead, the others are still written, and OutputError tells all that.
 void write_outputs(const Image& image, const std::vector<std::string>& paths,

@@ -66,6 +66,15 @@ class OutputTest(ProgramTest):
         ndc = file["worldToNDC"] @ [0, 0, 0, 1]
         np.testing.assert_allclose(ndc[:2] / ndc[3], [0.5, 0.5], atol=1e-5)
 
+    def test_a_link_is_the_file_that_it_leads_to(self):
+        (self.folder / "b.guide").symlink_to("a.exr")
+        for arguments in (["-o", "a.exr", "--dump-guiding", "b.guide"],
+                          ["-o", str(self.folder / "a.exr"), "--dump-guiding", "b.guide"]):
+            result = self.run_program("render", "fog.pbrt", *arguments)
+            self.assertEqual((result.returncode, result.stderr),
+                             (1, f"error: {arguments[1]} and b.guide are the same file: one would "
+                                 "overwrite the other\n"))
+
     def test_older_file_survives_an_error(self):
         self.write("a.exr", "precious")
         self.assertEqual(self.run_program("render", "nothing.pbrt", "-o", "a.exr").returncode, 2)
@@ -84,8 +93,26 @@ class OutputTest(ProgramTest):
         self.assertEqual(statistics["paths"], 16 * 8 * 2)
         self.assertEqual(statistics["rejected"], {"not_a_number": 0, "infinite": 0, "negative": 0})
         self.assertEqual(statistics["outputs"], ["fog.exr"])
+        result = self.render("--stats", "json", "-q", "--spp", "1", "--integrator", "learned",
+                             "-o", "a.exr", "--dump-guiding", "a.guide")
+        self.assertEqual(json.loads(result.stdout)["outputs"], ["a.exr", "a.guide"])
         self.assertIs(statistics["stopped_early"], False)
         self.assertEqual(result.stderr, "")
+
+    def test_memory_of_guiding(self):
+        disk = ('WorldBegin\nMaterial "diffuse"\nAttributeBegin\nRotate 90 1 0 0\n'
+                'Shape "disk" "float radius" 1 "float height" -.2\nAttributeEnd')
+        self.write("fog.pbrt", FOG.replace("WorldBegin", disk))
+        used = {}
+        for memory in ("1", "128"):
+            result = self.render("--stats", "json", "-q", "--size", "64x32", "--spp", "16",
+                                 "--set", f"learned.memory={memory}")
+            used[memory] = json.loads(result.stdout)["counters"]["guiding.memory_bytes"]
+        self.assertLess(used["1"], 1e6)
+        self.assertGreater(used["128"], 1e6)
+        result = self.run_program("render", "fog.pbrt", "--set", "learned.memory=0")
+        self.assertEqual((result.returncode, result.stderr),
+                         (1, 'error: option "learned.memory" is a positive number of MB, not "0"\n'))
 
     def test_quiet(self):
         result = self.render("--quiet")
@@ -208,13 +235,24 @@ class UsageTest(ProgramTest):
                    "error: --pixel: 16,0 lies outside the 16x8 picture\n")
         self.check(["fog.pbrt", "--crop", "20,0,30,8"],
                    "error: --crop: the window holds no pixel of the 16x8 picture\n")
+        same = "are the same file: one would overwrite the other\n"
+        self.check(["fog.pbrt", "-o", "a.exr", "-o", "a.exr"], f"error: a.exr and a.exr {same}")
+        self.check(["fog.pbrt", "-o", "a.exr", "--dump-guiding", "./a.exr"],
+                   f"error: a.exr and ./a.exr {same}")
+        self.check(["fog.pbrt", "--dump-guiding", "fog.exr"],
+                   f"error: fog.exr and fog.exr {same}")
+        self.check(["fog.pbrt", "--dump-guiding", "x/../fog.pbrt"],
+                   f"error: fog.pbrt and x/../fog.pbrt {same}")
         self.check(["fog.pbrt", "--set", "x"],
                    "error: --set: must be name=value, got 'x'\n" + SEE)
 
     def test_unknown_option_of_the_integrator(self):
         result = self.run_program("render", "fog.pbrt", "--set", "no.such=1")
-        self.assertEqual(result.returncode, 1)
-        self.assertIn("no.such", result.stderr)
+        self.assertEqual((result.returncode, result.stderr),
+                         (1, 'error: integrator "learned" has no option "no.such"; there are: '
+                             "learned.direction, learned.distance, learned.lit_surfaces, "
+                             "learned.memory, learned.pretraining, learned.product, learned.roulette, learned.sky, "
+                             "particles\n"))
 
     def test_help_and_version(self):
         result = self.run_program("render", "--help")

@@ -16,8 +16,10 @@ std::vector<std::byte> written() {
   ByteWriter bytes;
   GuidingFileWriter file(bytes);
   file.add_times(8, 2);
+  file.add_scene({.lights = 4, .bounds = {{-1, -2, -3}, {1, 2, 3}}, .camera = {0, 5, 0}});
   file.add_map(3, map);
   file.add_records(RecordCache({LightCluster{}}));
+  file.finish();
   return bytes.bytes();
 }
 
@@ -34,6 +36,10 @@ TEST(GuidingFileTest, SurvivesWritingAndReading) {
   const GuidingFile file = read_guiding_file(written());
   EXPECT_EQ(file.seconds, 8);
   EXPECT_EQ(file.training_seconds, 2);
+  ASSERT_TRUE(file.scene);
+  EXPECT_EQ(file.scene->lights, 4u);
+  EXPECT_EQ(file.scene->bounds.max.z, 3);
+  EXPECT_EQ(file.scene->camera.y, 5);
   ASSERT_EQ(file.maps.size(), 1u);
   ASSERT_TRUE(file.maps.contains(3));
   const VisibilityMap& map = *file.maps.at(3);
@@ -54,15 +60,24 @@ TEST(GuidingFileTest, SaysWhatIsWrongWithAFile) {
   EXPECT_EQ(error_of(wrong), "it is no file of --dump-guiding");
   wrong = whole;
   wrong[4] = std::byte{9};
-  EXPECT_EQ(error_of(wrong), "its format has version 9, this program reads version 1");
-  for (const size_t size : {size_t{5}, size_t{12}, size_t{30}, whole.size() - 1})
-    EXPECT_EQ(error_of(std::span(whole).first(size)), "it ends too early") << size;
+  EXPECT_EQ(error_of(wrong), "its format has version 9, this program reads version 2");
+  wrong = whole;
+  wrong.push_back(std::byte{0});
+  EXPECT_EQ(error_of(wrong), "something follows its end");
+}
+
+// Between sections too: 8, 36 and the last one's 12 bytes before the end.
+TEST(GuidingFileTest, NoPartOfAFileIsAFile) {
+  const std::vector<std::byte> whole = written();
+  for (size_t size = 4; size < whole.size(); ++size)
+    EXPECT_EQ(error_of(std::span(whole).first(size)), "it is cut off") << size;
 }
 
 TEST(GuidingFileTest, RefusesDamagedSectionsAndSkipsUnknownOnes) {
   std::vector<std::byte> bytes = written();
-  // After magic, version and TIME of 12 + 16 bytes: the name of the map's section.
-  constexpr size_t map_section = 8 + 12 + 16;
+  // After magic, version, TIME of 12 + 16 bytes and SCNE of 12 + 40: the name of the map's
+  // section.
+  constexpr size_t map_section = 8 + 12 + 16 + 12 + 40;
   ASSERT_EQ(bytes[map_section], std::byte{'V'});
   std::vector<std::byte> damaged = bytes;
   damaged[map_section + 12 + 4] = std::byte{77};  // the kind of its view

@@ -154,6 +154,36 @@ TEST(DirectionGuidingTest, LearnsAndReports) {
   EXPECT_LT(s.counters.at("guiding.memory_bytes"), 256 << 20);
 }
 
+TEST(DirectionGuidingTest, StaysBelowTheMemoryThatItIsGiven) {
+  const double roomy = statistics_of(lamp_over_disk()).counters.at("guiding.memory_bytes");
+  EXPECT_GT(roomy, 3e5);  // else this tests nothing
+  for (const char* memory : {"0.3", "0.05", "1e-6"}) {
+    const RenderStatistics s =
+        statistics_of(lamp_over_disk(), {{"learned.memory", memory}});
+    // What the one record takes that there always is.
+    const double least = 2000;
+    EXPECT_LE(s.counters.at("guiding.memory_bytes"),
+              std::max(1e6 * std::stod(memory), least));
+  }
+}
+
+// What is learned from few samples is no bias.
+TEST(DirectionGuidingTest, LittleMemoryIsNoBias) {
+  const Scene scene(lamp_over_disk());
+  ConnectionSettings settings =
+      connection_settings("zhou2016", {{"learned.memory", "0.1"}});
+  PathTracer guided(scene, order_two(1), settings);
+  for (uint32_t first = 0, next = 0; first < 64; first = next) {
+    next = guided.prepare(first);
+    mean_of(scene, guided, first, next - first, 1);
+  }
+  guided.prepare(64);
+  const RunningMoments learned = mean_of(scene, guided, 64, 400, 2);
+  const auto volpath = make_integrator(scene, order_two(1, "volpath"));
+  const RunningMoments reference = mean_of(scene, *volpath, 0, 4000, 1);
+  EXPECT_GT(welch_p_value(reference, learned), 0.005);
+}
+
 // Six lamps around, of which black spheres hide all but the first.
 SceneDescription lamps_in_boxes() {
   SceneDescription d = lamp_over_disk();
@@ -230,6 +260,14 @@ TEST(DirectionGuidingTest, AllLightsHiddenTeachNothing) {
             std::vector<std::string>{"no directions were learned: no light arrived after "
                                      "two scattering events, or too few samples were "
                                      "taken"});
+}
+
+TEST(DirectionGuidingTest, SaysWhatLearningDirectionsTakes) {
+  RenderSettings settings = order_two(8);
+  settings.max_depth = 1;
+  EXPECT_EQ(render(Scene(lamp_over_disk()), settings).statistics.notes,
+            std::vector<std::string>{"no directions were learned: they are those between "
+                                     "two scattering events, and at most 1 is allowed"});
 }
 
 TEST(DirectionGuidingTest, LightsOutOfTheSceneAndHugeScenesAreNoTrouble) {

@@ -20,7 +20,15 @@ SceneDescription ball_and_light(float distance) {
 
 ConnectionSettings useful(SceneDescription description) {
   return useful_connections(Scene(std::move(description)),
-                            connection_settings("learned", {}));
+                            connection_settings("learned", {}))
+      .settings;
+}
+
+std::string why_unlearned(SceneDescription description, const char* integrator = "learned",
+                          std::map<std::string, std::string> options = {}) {
+  return useful_connections(Scene(std::move(description)),
+                            connection_settings(integrator, options))
+      .why_unlearned;
 }
 
 TEST(UsefulConnectionsTest, NearLightsKeepTheirConnections) {
@@ -40,6 +48,27 @@ TEST(UsefulConnectionsTest, OccludersAreAReasonToLearnThemForFarLightsToo) {
     EXPECT_TRUE(s.single && s.dual && s.direction && s.visibility && s.lit_surfaces);
     EXPECT_EQ(s.min_distance_ratio, 1);
   }
+}
+
+TEST(UsefulConnectionsTest, SaysWhyNothingIsLearned) {
+  const std::string reason =
+      " learned: surfaces hide 0 % of the light from what the picture shows, and below "
+      "30 % learning gains less than it costs";
+  EXPECT_EQ(why_unlearned(ball_and_light(2)),
+            "neither distances nor directions were" + reason);
+  EXPECT_EQ(why_unlearned(ball_and_light(2), "zhou2016"), "no directions were" + reason);
+  EXPECT_EQ(why_unlearned(ball_and_light(2), "learned", {{"learned.direction", "off"}}),
+            "no distances were" + reason);
+  EXPECT_EQ(why_unlearned(ball_and_light(2), "jis"), "");
+  SceneDescription clear = ball_and_light(2);
+  clear.surfaces.clear();
+  EXPECT_EQ(why_unlearned(std::move(clear)),
+            "neither distances nor directions were learned: camera paths meet neither fog "
+            "nor smoke");
+  // Directions are learned here.
+  SceneDescription smoke = ball_and_light(2);
+  smoke.surfaces.push_back(test::diffuse_disk(2, 0.5f, 0.5f));
+  EXPECT_EQ(why_unlearned(std::move(smoke)), "");
 }
 
 // What surfaces see of smoke, directions are learned for, not of fog on all sides.
@@ -89,7 +118,7 @@ TEST(UsefulConnectionsTest, WithoutThemLearnedIsVolpathAndSaysSo) {
       learned.statistics.notes,
       std::vector<std::string>{
           "no light is near enough to what scatters for connections to help: rendered "
-          "as by \"volpath\""});
+          "as by \"volpath\", and nothing was learned"});
   EXPECT_TRUE(volpath.statistics.notes.empty());
 }
 

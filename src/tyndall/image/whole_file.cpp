@@ -42,19 +42,6 @@ class File {
   int descriptor_;
 };
 
-/// What a path names once symbolic links are followed; it need not exist.
-std::string follow_links(const std::string& path) {
-  constexpr int most_links = 40;  // as Linux allows
-  std::filesystem::path end = path;
-  for (int i = 0; i <= most_links; ++i) {
-    std::error_code error;
-    const std::filesystem::path target = std::filesystem::read_symlink(end, error);
-    if (error) return end.string();
-    end = end.parent_path() / target;
-  }
-  fail(path, "write", ELOOP);
-}
-
 /// Pipes and devices cannot be replaced by a file: what is written goes into them.
 bool is_pipe_or_device(const std::string& path) {
   struct stat status;
@@ -88,6 +75,18 @@ bool write_all(const File& file, std::string_view bytes) {
 }
 
 }  // namespace
+
+std::string follow_links(const std::string& path) {
+  constexpr int most_links = 40;  // as Linux allows
+  std::filesystem::path end = path;
+  for (int i = 0; i <= most_links; ++i) {
+    std::error_code error;
+    const std::filesystem::path target = std::filesystem::read_symlink(end, error);
+    if (error) return end.string();
+    end = end.parent_path() / target;
+  }
+  fail(path, "write", ELOOP);
+}
 
 std::string read_whole_file(const std::string& path) {
   const File file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));

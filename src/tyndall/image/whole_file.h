@@ -9,6 +9,10 @@ namespace tyndall {
 /// The bytes of a file. Throws std::runtime_error: "PATH: cannot read: REASON".
 std::string read_whole_file(const std::string& path);
 
+/// What a path names once symbolic links are followed; it need not exist. Throws
+/// std::runtime_error if they go in circles.
+std::string follow_links(const std::string& path);
+
 /// Writes to a temporary name in the same folder and renames it to `path`, so that no
 /// reader ever sees half a file and a failure leaves an older file as it was. Symbolic
 /// links stay, and what they lead to is written; so are pipes and devices, in place. Throws

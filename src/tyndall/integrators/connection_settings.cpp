@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <charconv>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
@@ -32,41 +33,86 @@ const std::vector<std::pair<std::string, ConnectionSettings>>& integrators() {
   return all;
 }
 
-using Switch = void (*)(ConnectionSettings&, bool is_on);
-using Switches = std::map<std::string_view, Switch>;
+// What `--set` says of an option. Throws std::invalid_argument if that is something else.
+struct OptionValue {
+  const std::string& name;
+  const std::string& text;
 
-const Switches::value_type particles{
-    "particles", [](ConnectionSettings& s, bool is_on) { s.particles = is_on; }};
+  bool is_on() const {
+    if (text == "on") return true;
+    if (text == "off") return false;
+    throw std::invalid_argument(
+        fmt::format("option \"{}\" is \"on\" or \"off\", not \"{}\"", name, text));
+  }
+  size_t bytes() const {  // given in MB
+    double number = 0;
+    const char* const end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(text.data(), end, number);
+    if (error != std::errc() || rest != end || !(number > 0 && number <= most_megabytes))
+      throw std::invalid_argument(
+          fmt::format("option \"{}\" is a positive number of MB, not \"{}\"", name, text));
+    return static_cast<size_t>(1e6 * number);
+  }
 
-// What can be turned off: parts of what is learned by "learned" and a dot.
-const Switches& switches_of(const std::string& integrator) {
-  static const Switches plain{particles};
-  static const Switches zhou2016{
-      particles,
-      {"learned.product", [](ConnectionSettings& s, bool is_on) { s.product = is_on; }},
-      {"learned.pretraining",
-       [](ConnectionSettings& s, bool is_on) { s.pretraining = is_on; }}};
-  static const Switches learned{
-      particles,
-      {"learned.direction", [](ConnectionSettings& s, bool is_on) { s.direction = is_on; }},
-      {"learned.product", [](ConnectionSettings& s, bool is_on) { s.product = is_on; }},
-      {"learned.pretraining",
-       [](ConnectionSettings& s, bool is_on) { s.pretraining = is_on; }},
-      {"learned.roulette", [](ConnectionSettings& s, bool is_on) { s.roulette = is_on; }},
-      {"learned.sky", [](ConnectionSettings& s, bool is_on) { s.sky_directions = is_on; }},
-      {"learned.distance", [](ConnectionSettings& s, bool is_on) { s.visibility = is_on; }},
-      {"learned.lit_surfaces", [](ConnectionSettings& s, bool is_on) {
-         if (!is_on) s.lit_surfaces = 0;
-       }}};
+  static constexpr double most_megabytes = 1e12;
+};
+
+using SetOption = void (*)(ConnectionSettings&, const OptionValue&);
+using KnownOptions = std::map<std::string_view, SetOption>;
+
+template <bool ConnectionSettings::*Member>
+void set_switch(ConnectionSettings& settings, const OptionValue& value) {
+  settings.*Member = value.is_on();
+}
+
+void set_lit_surfaces(ConnectionSettings& settings, const OptionValue& value) {
+  if (!value.is_on()) settings.lit_surfaces = 0;
+}
+
+void set_memory(ConnectionSettings& settings, const OptionValue& value) {
+  settings.direction_memory = value.bytes();
+}
+
+// Those of what is learned begin with "learned" and a dot.
+const KnownOptions& options_of(const std::string& integrator) {
+  using S = ConnectionSettings;
+  static const KnownOptions plain{{"particles", set_switch<&S::particles>}};
+  static const KnownOptions zhou2016{{"particles", set_switch<&S::particles>},
+                                     {"learned.product", set_switch<&S::product>},
+                                     {"learned.pretraining", set_switch<&S::pretraining>},
+                                     {"learned.memory", set_memory}};
+  static const KnownOptions learned{{"particles", set_switch<&S::particles>},
+                                    {"learned.direction", set_switch<&S::direction>},
+                                    {"learned.product", set_switch<&S::product>},
+                                    {"learned.pretraining", set_switch<&S::pretraining>},
+                                    {"learned.memory", set_memory},
+                                    {"learned.roulette", set_switch<&S::roulette>},
+                                    {"learned.sky", set_switch<&S::sky_directions>},
+                                    {"learned.distance", set_switch<&S::visibility>},
+                                    {"learned.lit_surfaces", set_lit_surfaces}};
   if (integrator == "learned") return learned;
   return integrator == "zhou2016" ? zhou2016 : plain;
 }
 
-bool parse_switch(const std::string& name, const std::string& value) {
-  if (value == "on") return true;
-  if (value == "off") return false;
-  throw std::invalid_argument(
-      fmt::format("option \"{}\" is \"on\" or \"off\", not \"{}\"", name, value));
+// Without the part up to the dot.
+std::string_view short_name(std::string_view name) {
+  return name.substr(name.rfind('.') + 1);
+}
+
+// What options that do not exist could have meant: a name that is near once the part before
+// the dot, which all share, is left out; the integrators that have it; else all there are.
+std::string hint(const std::string& integrator, const std::string& name) {
+  std::vector<std::string_view> owners, short_names;
+  for (const auto& other : integrators())
+    if (options_of(other.first).contains(name)) owners.emplace_back(other.first);
+  if (!owners.empty()) return fmt::format("; it belongs to {}", quoted_list(owners));
+  const std::vector<std::string_view> names = keys_of(options_of(integrator));
+  for (const std::string_view n : names) short_names.push_back(short_name(n));
+  const std::string_view nearest = nearest_name(short_name(name), short_names);
+  for (const std::string_view n : names)
+    if (!nearest.empty() && short_name(n) == nearest)
+      return fmt::format("; did you mean \"{}\"?", n);
+  return fmt::format("; there are: {}", fmt::join(names, ", "));
 }
 
 }  // namespace
@@ -87,14 +133,13 @@ ConnectionSettings connection_settings(const std::string& integrator,
                                             integrator,
                                             fmt::join(integrator_names(), ", ")));
   ConnectionSettings settings = *found;
-  const Switches& switches = switches_of(integrator);
+  const KnownOptions& known = options_of(integrator);
   for (const auto& [name, value] : options) {
-    const auto entry = switches.find(name);
-    if (entry == switches.end())
+    const auto entry = known.find(name);
+    if (entry == known.end())
       throw std::invalid_argument(fmt::format("integrator \"{}\" has no option \"{}\"{}",
-                                              integrator, name,
-                                              did_you_mean(name, keys_of(switches))));
-    entry->second(settings, parse_switch(name, value));
+                                              integrator, name, hint(integrator, name)));
+    entry->second(settings, {name, value});
   }
   return settings;
 }

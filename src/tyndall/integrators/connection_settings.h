@@ -36,7 +36,7 @@ struct ConnectionSettings {
   bool direction = false;   ///< learn the directions of dual connections
   bool product = true;      ///< ... and multiply them by the phase function
   bool pretraining = true;  ///< ... beginning with what arrives if nothing is in the way
-  size_t direction_memory = size_t{128} << 20;  ///< for what is learned [bytes]
+  size_t direction_memory = 128'000'000;  ///< at most, samples included [bytes]
   /// What is known of directions beforehand, for the light clusters of the scene; a render
   /// that is given this learns no more.
   std::shared_ptr<const RecordCache> known_directions = {};
@@ -44,7 +44,8 @@ struct ConnectionSettings {
 
 /// The settings of an integrator of that name with options as `--set` gives them, by dotted
 /// name. Throws std::invalid_argument for an unknown integrator, option or value; the
-/// message names the nearest valid one.
+/// message names the nearest valid one, the integrators that have an option, or all options
+/// there are.
 ConnectionSettings connection_settings(const std::string& integrator,
                                        const std::map<std::string, std::string>& options);
 

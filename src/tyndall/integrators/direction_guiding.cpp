@@ -16,6 +16,9 @@ namespace {
 constexpr size_t max_clusters = 16;
 // What training samples may take of the memory.
 constexpr size_t log_part = 3;
+
+size_t most_samples(size_t memory) { return memory / log_part / sizeof(TrainingSample); }
+
 // More samples of one pass teach little: later passes bring other ones.
 constexpr size_t max_samples = 100'000;
 // What a sample of pre-training counts for, beside one of the scene.
@@ -56,8 +59,8 @@ DirectionGuiding::DirectionGuiding(const Scene& scene, const ConnectionSettings&
       cluster_of_(clusters_of(scene).cluster_of),
       cache_(to_learn(clusters_of(scene)), cache_settings(settings.direction_memory)),
       field_(cache_.field()),
-      log_(std::min(settings.direction_memory / log_part / sizeof(TrainingSample),
-                    max_samples)) {
+      log_(std::min(most_samples(settings.direction_memory), max_samples),
+           most_samples(settings.direction_memory)) {
   if (settings.known_directions) field_ = settings.known_directions->field();
 }
 
@@ -93,7 +96,6 @@ uint32_t DirectionGuiding::prepare(uint32_t first) {
   if (settings_.known_directions) return Integrator::unlimited;
   const uint32_t next = first == 0 ? 1 : 2 * first;
   if (first > 0) {
-    log_memory_ = std::max(log_memory_, log_.memory());
     const uint32_t last_pass = first - last_prepared_;
     cache_.update(log_.take(static_cast<double>(next - first) / last_pass), parallel_for);
     field_ = cache_.field();
@@ -103,12 +105,12 @@ uint32_t DirectionGuiding::prepare(uint32_t first) {
   return next;
 }
 
+bool DirectionGuiding::has_learned() const {
+  return settings_.known_directions || cache_.statistics().trained_guides > 0;
+}
+
 void DirectionGuiding::report(RenderStatistics& statistics) const {
   const GuidingStatistics s = cache_.statistics();
-  if (s.trained_guides == 0 && !settings_.known_directions)
-    statistics.notes.push_back(
-        "no directions were learned: no light arrived after two scattering events, or too "
-        "few samples were taken");
   const auto set = [&](const char* name, double value) {
     statistics.counters[std::string("guiding.") + name] = value;
   };
@@ -123,7 +125,7 @@ void DirectionGuiding::report(RenderStatistics& statistics) const {
   set("leak", s.leak);
   set("mixture_share", s.mixture_share);
   set("radius", s.radius);
-  set("memory_bytes", static_cast<double>(s.memory + log_memory_));
+  set("memory_bytes", static_cast<double>(s.memory + log_.most_memory()));
 }
 
 }  // namespace tyndall

@@ -41,7 +41,10 @@ class DirectionGuiding {
   /// Learns from the samples since the last call; called before sample `first` of each
   /// pixel. Returns up to which sample the render may go on.
   uint32_t prepare(uint32_t first);
+  /// Adds counters.
   void report(RenderStatistics& statistics) const;
+  /// Whether anything is known, if only of one place.
+  bool has_learned() const;
   const RecordCache& records() const { return cache_; }
 
  private:
@@ -52,7 +55,6 @@ class DirectionGuiding {
   TrainingLog log_;
   bool is_recording_ = false;
   uint32_t last_prepared_ = 0;
-  size_t log_memory_ = 0;  // most so far
 };
 
 }  // namespace tyndall

@@ -38,9 +38,9 @@ class Integrator {
   /// Adds counters and notes.
   virtual void report(RenderStatistics& /*statistics*/) const {}
 
-  /// Whether dump() has something to write.
+  /// Whether it learns in scenes that give reason to.
   virtual bool learns() const { return false; }
-  /// Writes what it has learned.
+  /// Writes what it has learned, which may be nothing.
   virtual void dump(GuidingFileWriter& /*out*/) const {}
 };
 

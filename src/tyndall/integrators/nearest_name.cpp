@@ -39,8 +39,8 @@ size_t distance_to(std::string_view name, std::string_view candidate) {
 
 }  // namespace
 
-std::string did_you_mean(std::string_view name,
-                         const std::vector<std::string_view>& names) {
+std::string_view nearest_name(std::string_view name,
+                              const std::vector<std::string_view>& names) {
   constexpr size_t longest = 64;  // of a name that can be a misspelling
   if (name.size() > longest) return {};
   std::string_view best;
@@ -51,7 +51,13 @@ std::string did_you_mean(std::string_view name,
     best = candidate;
     best_distance = distance;
   }
-  return best.empty() ? std::string{} : fmt::format("; did you mean \"{}\"?", best);
+  return best;
+}
+
+std::string did_you_mean(std::string_view name,
+                         const std::vector<std::string_view>& names) {
+  const std::string_view nearest = nearest_name(name, names);
+  return nearest.empty() ? std::string{} : fmt::format("; did you mean \"{}\"?", nearest);
 }
 
 std::string quoted_list(const std::vector<std::string_view>& names) {

@@ -7,6 +7,10 @@
 
 namespace tyndall {
 
+/// The most similar of `names`; empty if none is similar enough to be meant.
+std::string_view nearest_name(std::string_view name,
+                              const std::vector<std::string_view>& names);
+
 /// `; did you mean "..."?` with the most similar of `names`, or an empty string if none is
 /// similar enough to be meant.
 std::string did_you_mean(std::string_view name, const std::vector<std::string_view>& names);

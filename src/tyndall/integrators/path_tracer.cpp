@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tyndall/integrators/path_tracer.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <variant>
@@ -38,6 +40,13 @@ const Medium* filling(const Scene& scene) {
   return is_simple ? medium : nullptr;
 }
 
+std::string note_on_plain_paths(bool would_learn) {
+  const std::string note =
+      "no light is near enough to what scatters for connections to help: rendered as by "
+      "\"volpath\"";
+  return would_learn ? note + ", and nothing was learned" : note;
+}
+
 }  // namespace
 
 PathTracer::PathTracer(const Scene& scene, const RenderSettings& settings,
@@ -54,18 +63,17 @@ PathTracer::PathTracer(const Scene& scene, const RenderSettings& settings,
               std::ranges::any_of(scene.lights(), can_be_hit),
           .filling = filling(scene),
           .connections = nullptr,
-          .budget = nullptr} {
+          .budget = nullptr},
+      learns_(connections.visibility || connections.direction) {
   if (connections.particles) add_particles(settings);
   plain_rules_ = rules_;
-  const ConnectionSettings useful = useful_connections(scene, connections);
-  if (!useful.single) {
-    if (connections.single)
-      notes_.push_back(
-          "no light is near enough to what scatters for connections to help: rendered as "
-          "by \"volpath\"");
+  const UsefulConnections useful = useful_connections(scene, connections);
+  if (!useful.settings.single) {
+    if (connections.single) notes_.push_back(note_on_plain_paths(learns_));
     return;
   }
-  connections_.emplace(scene, useful);
+  if (!useful.why_unlearned.empty()) notes_.push_back(useful.why_unlearned);
+  connections_.emplace(scene, useful.settings);
   rules_.connections = &*connections_;
   if (connections_->settings().sky_directions)
     rules_.visibility = plain_rules_.visibility = connections_->visibility();
@@ -200,12 +208,21 @@ void PathTracer::report(RenderStatistics& statistics) const {
   }
   if (connections_->lit_surfaces())
     statistics.counters["connections.lit"] = budget_->mean_count(Effort::lit_from_leg, 0);
-  if (const DirectionGuiding* guiding = connections_->guiding())
+  if (const DirectionGuiding* guiding = connections_->guiding()) {
     guiding->report(statistics);
+    if (!guiding->has_learned())
+      statistics.notes.push_back("no directions were learned: " + why_no_directions());
+  }
 }
 
-bool PathTracer::learns() const {
-  return connections_ && (connections_->visibility() || connections_->guiding());
+std::string PathTracer::why_no_directions() const {
+  if (rules_.max_depth < 2)
+    return fmt::format(
+        "they are those between two scattering events, and at most {} is allowed",
+        rules_.max_depth);
+  if (!connections_->makes_dual())
+    return "all lights are at infinity, whose light comes from the same side everywhere";
+  return "no light arrived after two scattering events, or too few samples were taken";
 }
 
 void PathTracer::dump(GuidingFileWriter& out) const {

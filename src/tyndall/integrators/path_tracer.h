@@ -19,7 +19,7 @@ class PathTracer : public Integrator {
   uint32_t prepare(uint32_t first) override;
   ParticleTracer* particles() override { return particles_ ? &*particles_ : nullptr; }
   void report(RenderStatistics& statistics) const override;
-  bool learns() const override;
+  bool learns() const override { return learns_; }
   void dump(GuidingFileWriter& out) const override;
 
  private:
@@ -38,6 +38,7 @@ class PathTracer : public Integrator {
   void learn_worth();
   void update();
   void give_up_connections();
+  std::string why_no_directions() const;
 
   uint64_t seed_;
   Vec2i resolution_;
@@ -47,6 +48,7 @@ class PathTracer : public Integrator {
   std::optional<ParticleTracer> particles_;
   PathRules rules_, plain_rules_;
   std::vector<std::string> notes_;
+  bool learns_;             // if the scene gives reason to
   bool was_tried_ = false;  // whether connections pay
 };
 

@@ -101,7 +101,9 @@ class RenderJob {
     ByteWriter bytes;
     GuidingFileWriter file(bytes);
     file.add_times(statistics_.seconds, statistics_.training_seconds);
+    file.add_scene(SceneMark::of(scene_));
     integrator_->dump(file);
+    file.finish();
     return bytes.bytes();
   }
 

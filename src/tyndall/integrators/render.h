@@ -34,7 +34,7 @@ struct RenderOptions {
   /// Called from one thread at a time, at most about ten times a second, and at the end.
   std::function<void(const RenderProgress&)> on_progress;
   /// Hand back what the integrator has learned, in the format of GuidingFileWriter.
-  /// render() throws std::invalid_argument if it learns nothing.
+  /// render() throws std::invalid_argument if it learns nothing in any scene.
   bool dump_guiding = false;
   /// Called after each pass with the film so far and its samples per pixel, for
   /// checkpoints.

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tyndall/integrators/useful_connections.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
 #include "tyndall/integrators/lit_surface.h"
 #include "tyndall/integrators/pilot_points.h"
@@ -22,10 +26,11 @@ bool is_hidden(const Scene& scene, Vec3 p, const Light& light, Vec2 u) {
   return sample && scene.is_occluded({p, sample->wi}, sample->distance * 0.9999f);
 }
 
-// Whether surfaces hide lights from where light matters for the picture.
-bool something_hides_light(const Scene& scene) {
+// The share of the light that surfaces hide from where it matters for the picture; empty if
+// that is nowhere.
+std::optional<double> hidden_share(const Scene& scene) {
   std::vector<Vec3> points = pilot_points(scene);
-  if (points.empty()) return false;
+  if (points.empty()) return std::nullopt;
   const size_t step = std::max<size_t>(points.size() / max_probes, 1);
   size_t hidden = 0, probes = 0;
   for (size_t i = 0; i < points.size(); i += step, ++probes) {
@@ -33,7 +38,7 @@ bool something_hides_light(const Scene& scene) {
     const std::optional<SelectedLight> light = scene.select_light(random.next_1d());
     if (light && is_hidden(scene, points[i], *light->light, random.next_2d())) ++hidden;
   }
-  return static_cast<double>(hidden) >= least_hidden_share * static_cast<double>(probes);
+  return static_cast<double>(hidden) / static_cast<double>(probes);
 }
 
 bool something_reflects(const SceneDescription& description) {
@@ -69,12 +74,28 @@ bool is_near(const Light& light, const Bounds3& box, float ratio) {
   return distance + box.radius() > ratio * (distance - box.radius());
 }
 
+// What was asked for, and why the scene gives no reason to learn it.
+std::string why_unlearned(const ConnectionSettings& asked, std::optional<double> hidden) {
+  const char* what = asked.visibility && asked.direction
+                         ? "neither distances nor directions were learned"
+                     : asked.visibility ? "no distances were learned"
+                                        : "no directions were learned";
+  if (!hidden) return fmt::format("{}: camera paths meet neither fog nor smoke", what);
+  return fmt::format(
+      "{}: surfaces hide {:.0f} % of the light from what the picture shows, and below "
+      "{:.0f} % learning gains less than it costs",
+      what, std::floor(100 * *hidden), 100 * least_hidden_share);
+}
+
 }  // namespace
 
-ConnectionSettings useful_connections(const Scene& scene, ConnectionSettings settings) {
+UsefulConnections useful_connections(const Scene& scene, ConnectionSettings settings) {
+  const ConnectionSettings asked = settings;
   const bool learns = settings.visibility || settings.direction;
   const bool is_taught = settings.known_visibility || settings.known_directions;
-  if (learns && !is_taught && !something_hides_light(scene)) {
+  std::optional<double> hidden;
+  if (learns && !is_taught) hidden = hidden_share(scene);
+  if (learns && !is_taught && !(hidden && *hidden >= least_hidden_share)) {
     settings.visibility = settings.far_visibility = false;
     settings.direction = settings.direction && surfaces_see_smoke(scene);
     settings.min_distance_ratio =
@@ -88,7 +109,8 @@ ConnectionSettings useful_connections(const Scene& scene, ConnectionSettings set
     return box.is_empty() || is_near(light, box, settings.min_distance_ratio);
   });
   if (!is_useful) settings.single = settings.dual = settings.direction = false;
-  return settings;
+  const bool is_unlearned = learns && !settings.visibility && !settings.direction;
+  return {settings, is_unlearned ? why_unlearned(asked, hidden) : std::string()};
 }
 
 }  // namespace tyndall
