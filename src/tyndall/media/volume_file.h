@@ -31,7 +31,9 @@ struct VolumeGridInfo {
 };
 
 /// The grids of a .vdb or .nvdb file, told apart by their contents.
-/// Throws std::runtime_error that names the file if it cannot be read.
+/// Throws std::runtime_error that names the file if it cannot be read. OpenVDB crashes on
+/// what is damaged of grids of points and of files of versions before 222, see
+/// VolumeInHand; all else is checked before.
 std::vector<VolumeGridInfo> list_volume_grids(const std::filesystem::path& path);
 
 /// Only names and types are sure to be filled in, which is much faster.
