@@ -95,6 +95,27 @@ TEST_P(BadVolumeTest, NumbersThatAreNoneCountAsZero) {
   }
 }
 
+TEST_P(BadVolumeTest, ValuesThatAreNoNumbersHaveNoRange) {
+  write({{.voxels = test::filled_box({0, 0, 0}, {9, 9, 9}, std::nanf(""))}});
+  const VolumeGridInfo info = list_volume_grids(path()).at(0);
+  EXPECT_EQ(info.active_voxels, 1000u);
+  EXPECT_TRUE(std::isnan(info.min) && std::isnan(info.max)) << info.min << info.max;
+}
+
+// Voxels are cubes about their positions, whatever the format; densities interpolate
+// between the positions, and fade to zero over half a voxel farther.
+TEST_P(BadVolumeTest, BoundsAreThoseOfTheVoxels) {
+  write({{.voxels = test::filled_box({-1, 0, 2}, {9, 9, 9}, 3),
+          .voxel_size = 0.5,
+          .origin = {10, 20, 30}}});
+  const VolumeGridInfo info = list_volume_grids(path()).at(0);
+  EXPECT_EQ(info.bounds.min, (Vec3{9.25f, 19.75f, 30.75f}));
+  EXPECT_EQ(info.bounds.max, (Vec3{14.75f, 24.75f, 34.75f}));
+  const GridMedium medium = medium_of(read());
+  EXPECT_NEAR(medium.at(info.bounds.min + Vec3{0, 1, 1}).sigma_s.r, 1.5f, 1e-4f);
+  EXPECT_EQ(medium.at(info.bounds.min + Vec3{-0.26f, 1, 1}).sigma_s.r, 0);
+}
+
 // A ball of which only a band about its surface is stored: one within, and a slope.
 TEST_P(BadVolumeTest, LevelSetsBecomeDensities) {
   write({test::level_set_of_ball(20, 3)});

@@ -63,13 +63,15 @@ Vec3 to_vec(const openvdb::Vec3d& v) {
 template <typename GridType>
 void add_range(const openvdb::GridBase& base, VolumeGridInfo& info) {
   if (!base.isType<GridType>() || base.activeVoxelCount() == 0) return;
-  info.min = infinity;
-  info.max = -infinity;
+  float least = infinity, largest = -infinity;
   for (auto it = static_cast<const GridType&>(base).cbeginValueOn(); it; ++it) {
     const float v = static_cast<float>(*it);
-    info.min = std::min(info.min, v);
-    info.max = std::max(info.max, v);
+    least = std::min(least, v);
+    largest = std::max(largest, v);
   }
+  if (!(least <= largest)) return;  // no voxel holds a number
+  info.min = least;
+  info.max = largest;
 }
 
 // What stands in the file's directory.

@@ -109,7 +109,7 @@ std::vector<VolumeGridInfo> list_volume_grids(const std::filesystem::path& path)
     } else {
       for (const NanoVdbEntry& entry : read_nanovdb_directory(file)) {
         infos.push_back(entry.info);
-        if (entry.info.is_scalar) read_nanovdb_range(file, entry, infos.back());
+        read_nanovdb_details(file, entry, infos.back());
       }
     }
     return infos;

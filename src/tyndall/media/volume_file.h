@@ -21,7 +21,8 @@ struct VolumeGridInfo {
   std::string type;   ///< "float", "vec3s", "points" ...
   bool is_scalar;     ///< whether read_volume() takes it
   Vec3i first, last;  ///< active voxels, inclusive; first > last if there are none
-  Bounds3 bounds;     ///< of the active voxels, in the file's space
+  Bounds3 bounds;     ///< of the active voxels, cubes about their positions, in the file's
+                      ///< space; what is read fades to zero half a voxel farther out
   Vec3 voxel_size;    ///< in the file's space
   uint64_t active_voxels;
   uint64_t memory;            ///< uncompressed, as the file stores it [bytes]
