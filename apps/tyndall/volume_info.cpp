@@ -8,6 +8,8 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "tyndall/loader/excerpt.h"
+
 namespace tyndall::app {
 namespace {
 
@@ -24,9 +26,10 @@ std::array<int64_t, 3> voxel_count(const VolumeGridInfo& grid) {
 std::string grid_text(const VolumeGridInfo& grid) {
   const std::array<int64_t, 3> n = voxel_count(grid);
   const Vec3 s = grid.voxel_size, a = grid.bounds.min, b = grid.bounds.max;
-  std::string text = fmt::format(
-      "  \"{}\": {}{}{}\n", grid.name, grid.type, grid.is_level_set ? ", a level set" : "",
-      grid.is_scalar ? "" : ", which cannot be a density or a temperature");
+  std::string text =
+      fmt::format("  \"{}\": {}{}{}\n", loader::printable(grid.name),
+                  loader::printable(grid.type), grid.is_level_set ? ", a level set" : "",
+                  grid.is_scalar ? "" : ", which cannot be a density or a temperature");
   text += fmt::format("    voxels    {} active in {} x {} x {}\n", grid.active_voxels, n[0],
                       n[1], n[2]);
   text += fmt::format("    voxel     {:g} x {:g} x {:g}\n", s.x, s.y, s.z);

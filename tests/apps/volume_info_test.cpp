@@ -51,5 +51,14 @@ TEST(VolumeInfo, CountsVoxelsThatAreFarApart) {
   EXPECT_EQ(json["grids"][0]["voxels"].dump(), "[4000000001,4000000001,4294967296]");
 }
 
+TEST(VolumeInfo, ShowsNoControlCharacters) {
+  const TemporaryFolder folder;
+  VolumeGridInfo grid = far_apart();
+  grid.name = "dichte_\xc3\xa4\n\x1b[31m\xff";
+  EXPECT_NE(
+      volume_text(file_in(folder), {grid}).find("\n  \"dichte_\xc3\xa4??[31m?\": float"),
+      std::string::npos);
+}
+
 }  // namespace
 }  // namespace tyndall::app

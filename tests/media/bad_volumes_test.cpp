@@ -278,5 +278,11 @@ TEST_P(BadVolumeTest, AbsurdBoxesAreRefused) {
             "the active voxels span 2000001 x 1000001 x 1, more than fits in memory");
 }
 
+TEST_P(BadVolumeTest, VoxelsWithoutNeighborsAreRefused) {
+  write({{.voxels = test::filled_box({INT32_MIN, 0, 0}, {INT32_MIN + 7, 7, 7}, 2)}});
+  EXPECT_EQ(complaint(),
+            "the active voxels begin at (-2147483648, 0, 0), too far from the origin");
+}
+
 }  // namespace
 }  // namespace tyndall
