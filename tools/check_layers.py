@@ -33,7 +33,7 @@ LIBRARIES = {
     "oneTBB": (r"(one)?api/tbb|tbb/", {"math", "image", "integrators"}, 4),
     "OpenEXR": (r"Imf|Iex|Imath|OpenEXR/|half\.h", {"image"}, 2),
     "libpng": (r"png\.h", {"image"}, 1),
-    "zlib": (r"zlib\.h", {"loader", "image", "media"}, 2),
+    "zlib": (r"zlib\.h", {"loader", "image", "media"}, 3),
     "OpenVDB": (r"openvdb/", {"media"}, 1),
     "Blosc": (r"blosc\.h", {"media"}, 1),
     "Boost": (r"boost/", {"geometry", "media", "lights", "scene", "integrators", "techniques", "guiding"}, 10),

@@ -7,6 +7,7 @@
 #include <new>
 
 #include "tyndall/loader/diagnostics.h"
+#include "tyndall/loader/excerpt.h"
 
 namespace tyndall::app {
 
@@ -37,7 +38,8 @@ ExitCode run_guarded(const std::function<ExitCode()>& run) {
   } catch (const std::invalid_argument& error) {
     return report(ExitCode::usage, error.what());
   } catch (const std::exception& error) {
-    return report(ExitCode::scene, error.what());
+    // It may quote a file that is damaged.
+    return report(ExitCode::scene, loader::printable(error.what()));
   }
 }
 

@@ -39,7 +39,11 @@ ExitCode run_info_command(const InfoArguments& arguments) {
       fmt::print("{}", is_scene(path) ? scene_text(path, load(path))
                                       : volume_text(path, list_volume_grids(path)));
   }
-  if (arguments.json) fmt::print("{}\n", all.dump(2));
+  if (arguments.json) {
+    // Names need not be UTF-8.
+    const auto replace = nlohmann::ordered_json::error_handler_t::replace;
+    fmt::print("{}\n", all.dump(2, ' ', false, replace));
+  }
   return ExitCode::done;
 }
 

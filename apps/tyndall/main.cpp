@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tyndall/commands.h"
+#include "apps/tyndall/crash_report.h"
 #include "apps/tyndall/version.h"
 
 int main(int argc, char** argv) {
   using namespace tyndall::app;
+  report_crashes_in_volumes();
   Program program("tyndall", "A path tracer for light in fog, smoke and clouds.",
                   version_text());
   add_render_command(program);

@@ -3,29 +3,35 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+
+#include "tyndall/loader/excerpt.h"
 
 namespace tyndall::app {
 namespace {
 
 bool is_empty(const VolumeGridInfo& grid) { return grid.first.x > grid.last.x; }
 
-Vec3i voxel_count(const VolumeGridInfo& grid) {
+// Positions may be as far apart as 32 bits can say.
+std::array<int64_t, 3> voxel_count(const VolumeGridInfo& grid) {
   if (is_empty(grid)) return {0, 0, 0};
-  return {grid.last.x - grid.first.x + 1, grid.last.y - grid.first.y + 1,
-          grid.last.z - grid.first.z + 1};
+  const auto count = [](int first, int last) { return int64_t{last} - first + 1; };
+  return {count(grid.first.x, grid.last.x), count(grid.first.y, grid.last.y),
+          count(grid.first.z, grid.last.z)};
 }
 
 std::string grid_text(const VolumeGridInfo& grid) {
-  const Vec3i n = voxel_count(grid);
+  const std::array<int64_t, 3> n = voxel_count(grid);
   const Vec3 s = grid.voxel_size, a = grid.bounds.min, b = grid.bounds.max;
-  std::string text = fmt::format(
-      "  \"{}\": {}{}{}\n", grid.name, grid.type, grid.is_level_set ? ", a level set" : "",
-      grid.is_scalar ? "" : ", which cannot be a density or a temperature");
-  text += fmt::format("    voxels    {} active in {} x {} x {}\n", grid.active_voxels, n.x,
-                      n.y, n.z);
+  std::string text =
+      fmt::format("  \"{}\": {}{}{}\n", loader::printable(grid.name),
+                  loader::printable(grid.type), grid.is_level_set ? ", a level set" : "",
+                  grid.is_scalar ? "" : ", which cannot be a density or a temperature");
+  text += fmt::format("    voxels    {} active in {} x {} x {}\n", grid.active_voxels, n[0],
+                      n[1], n[2]);
   text += fmt::format("    voxel     {:g} x {:g} x {:g}\n", s.x, s.y, s.z);
   if (!is_empty(grid))
     text += fmt::format("    bounds    ({:g}, {:g}, {:g}) to ({:g}, {:g}, {:g})\n", a.x,
@@ -37,7 +43,6 @@ std::string grid_text(const VolumeGridInfo& grid) {
 }
 
 nlohmann::ordered_json triple(Vec3 v) { return {v.x, v.y, v.z}; }
-nlohmann::ordered_json triple(Vec3i v) { return {v.x, v.y, v.z}; }
 nlohmann::ordered_json number(float x) {
   return std::isfinite(x) ? nlohmann::ordered_json(x) : nlohmann::ordered_json();
 }
@@ -48,7 +53,7 @@ nlohmann::ordered_json grid_json(const VolumeGridInfo& grid) {
                                  {"is_scalar", grid.is_scalar},
                                  {"is_level_set", grid.is_level_set},
                                  {"active_voxels", grid.active_voxels},
-                                 {"voxels", triple(voxel_count(grid))},
+                                 {"voxels", voxel_count(grid)},
                                  {"voxel_size", triple(grid.voxel_size)},
                                  {"bounds", nullptr},
                                  {"min", number(grid.min)},

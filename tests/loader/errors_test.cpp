@@ -34,6 +34,20 @@ TEST(LoadErrorsTest, RefusesPhaseFunctionsThatDoNotSpread) {
                   std::string(g.size(), '~'));
 }
 
+TEST(LoadErrorsTest, UsesOfWhatIsBrokenAreNoErrorsOfTheirOwn) {
+  EXPECT_EQ(test::error_of("Camera \"perspective\" WorldBegin LightSource \"infinite\"\n"
+                           "MakeNamedMedium \"m\" \"float g\" [ 1 /\n"
+                           "MediumInterface \"m\" \"\" Shape \"sphere\"\n"
+                           "MakeNamedMaterial \"w\" \"float eta\" \"x\"\n"
+                           "NamedMaterial \"w\" Shape \"sphere\"\n"),
+            "test.pbrt:2:35: error: expected a number for \"float g\", got \"/\"\n"
+            "    2 | MakeNamedMedium \"m\" \"float g\" [ 1 /\n"
+            "      |                                   ^\n"
+            "test.pbrt:4:35: error: expected a number for \"float eta\", got a string\n"
+            "    4 | MakeNamedMaterial \"w\" \"float eta\" \"x\"\n"
+            "      |                                   ^~~");
+}
+
 TEST(LoadErrorsTest, KeepsTheDiagnosticsApart) {
   try {
     test::parse_world("Shape \"sphere\" \"float radius\" -1\nShape \"cube\"\n");

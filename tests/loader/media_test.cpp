@@ -107,6 +107,29 @@ TEST(LoadUniformGridTest, DensityScalesUnitCoefficients) {
   EXPECT_TRUE(is_black(medium.at({12.5f, 0.5f, 0.5f}).sigma_s));
 }
 
+std::vector<std::string> warnings_of(const std::string& parameters) {
+  std::vector<std::string> messages;
+  for (const Diagnostic& d :
+       test::parse_world("MakeNamedMedium \"m\" \"string type\" " + parameters).warnings)
+    messages.push_back(d.message);
+  return messages;
+}
+
+TEST(LoadUniformGridTest, WarnsOfWhatCountsAsZero) {
+  using Messages = std::vector<std::string>;
+  const std::string large =
+      "MakeNamedMedium \"m\": \"density\" holds values above 1e+30, which count as zero";
+  const std::string empty =
+      "MakeNamedMedium \"m\": the density is zero everywhere: an empty medium";
+  EXPECT_EQ(warnings_of("\"uniformgrid\" \"integer nx\" 2 \"float density\" [1 3e38]"),
+            Messages{large});
+  EXPECT_EQ(warnings_of("\"uniformgrid\" \"integer nx\" 2 \"float density\" [1 1e30]"),
+            Messages{});
+  EXPECT_EQ(warnings_of("\"uniformgrid\" \"float density\" 0"), Messages{empty});
+  EXPECT_EQ(warnings_of("\"uniformgrid\" \"float density\" 1e31"),
+            (Messages{large, empty}));
+}
+
 // x runs fastest, then y, then z.
 TEST(LoadUniformGridTest, OrderOfValues) {
   const Medium medium = medium_of(

@@ -105,6 +105,27 @@ TEST(CloudTest, GridMatchesTheFunction) {
   }
 }
 
+// Pictures of clouds stay what they are.
+TEST(CloudTest, KeepsItsShape) {
+  const Vec3 high{-3.2f, 0.8f, 7.7f}, low{0.1f, 0.45f, 0.5f};
+  EXPECT_FLOAT_EQ(cloud_density({}, high), 0.0351287313f);
+  EXPECT_FLOAT_EQ(cloud_density({}, low), 0.101183787f);
+  EXPECT_FLOAT_EQ(cloud_density({.wispiness = 0}, high), 0.0132068535f);
+}
+
+// The noise of a row goes on where the last point was.
+TEST(CloudTest, GridHoldsTheFunction) {
+  const CloudParameters parameters;
+  const Bounds3 bounds{{-0.02f, 0.4f, 0.3f}, {0.03f, 0.45f, 0.35f}};
+  const PlacedGrid cloud = make_cloud(parameters, bounds);
+  for (int i = 0; i < 23; ++i) {
+    const auto at = static_cast<float>(i);
+    const Vec3 center = bounds.min + bounds.diagonal() * ((at + 0.5f) / 23);
+    const Vec3 p = cloud.medium_from_grid.inverse().point(center);
+    EXPECT_NEAR(cloud.grid->interpolate(p), cloud_density(parameters, center), 2e-4f) << i;
+  }
+}
+
 // Noise that is its own derivative's integral: wisps follow its gradient.
 TEST(CloudTest, FrequencyShrinksDetail) {
   const auto roughness = [](float frequency) {

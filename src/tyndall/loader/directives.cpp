@@ -78,11 +78,21 @@ void medium_interface(Parser& in, SceneBuilder& scene) {
   scene.medium_interface(inside, outside);
 }
 
+// One whose parameters cannot be read is there all the same: that its name is used is no
+// error of its own.
 void make_named(Parser& in, SceneBuilder& scene) {
   const std::string name = in.string("a name");
   const Token directive = in.directive();
-  ParameterSet parameters = scene.parameter_set(directive, name, in.parameters());
-  if (directive.text == "MakeNamedMedium")
+  const bool is_medium = directive.text == "MakeNamedMedium";
+  std::vector<Parameter> list;
+  try {
+    list = in.parameters();
+  } catch (const Failure&) {
+    scene.note_broken(is_medium, name);
+    throw;
+  }
+  ParameterSet parameters = scene.parameter_set(directive, name, std::move(list));
+  if (is_medium)
     scene.make_named_medium(name, std::move(parameters));
   else
     scene.make_named_material(name, std::move(parameters));

@@ -85,8 +85,10 @@ std::optional<Medium> make_uniform_grid(const MediumContext& in) {
   if (!p.has("density")) p.error("density", "parameter \"float density\" is missing");
   const auto density = read_grid(p, "density", n);
   if (!density) return std::nullopt;
-  return Medium(GridMedium(place_in_box(*density, box), in.world_from_medium, properties,
-                           phase, emission));
+  const PlacedGrid placed = place_in_box(*density, box);
+  if (placed.grid->is_empty())
+    p.warning("density", "the density is zero everywhere: an empty medium");
+  return Medium(GridMedium(placed, in.world_from_medium, properties, phase, emission));
 }
 
 std::optional<Medium> make_rgb_grid(const MediumContext& in) {

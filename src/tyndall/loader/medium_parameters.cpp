@@ -23,6 +23,16 @@ std::optional<MediumPreset> read_preset(ParameterSet& parameters) {
   return preset;
 }
 
+void warn_of_large_values(const ParameterSet& parameters, std::string_view name,
+                          const std::vector<float>& values) {
+  constexpr float largest = BrickGrid::largest;
+  if (std::none_of(values.begin(), values.end(), [](float x) { return x > largest; }))
+    return;
+  parameters.warning(
+      name,
+      fmt::format("\"{}\" holds values above {:g}, which count as zero", name, largest));
+}
+
 }  // namespace
 
 MediumProperties read_properties(const MediumContext& in, const MediumPreset& otherwise) {
@@ -80,10 +90,13 @@ std::optional<DensityGrid> read_grid(ParameterSet& parameters, std::string_view 
   }
   const auto bad =
       std::find_if(values.begin(), values.end(), [](float x) { return !(x >= 0); });
-  if (bad == values.end()) return DensityGrid{n, std::move(values)};
-  parameters.error(name, fmt::format("value {} of \"{}\" must not be negative, got {}",
-                                     bad - values.begin(), name, *bad));
-  return std::nullopt;
+  if (bad != values.end()) {
+    parameters.error(name, fmt::format("value {} of \"{}\" must not be negative, got {}",
+                                       bad - values.begin(), name, *bad));
+    return std::nullopt;
+  }
+  warn_of_large_values(parameters, name, values);
+  return DensityGrid{n, std::move(values)};
 }
 
 TemperatureScale read_temperature_scale(ParameterSet& parameters) {

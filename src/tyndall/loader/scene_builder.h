@@ -75,6 +75,8 @@ class SceneBuilder {
   void make_named_medium(const std::string& name, ParameterSet parameters);
   void medium_interface(const std::string& inside, const std::string& outside);
   void make_named_material(const std::string& name, ParameterSet parameters);
+  /// A named medium or material whose definition cannot be read.
+  void note_broken(bool is_medium, const std::string& name);
   void named_material(const std::string& name);
   void material(const std::string& type, ParameterSet parameters);
   void texture(const std::string& name, const std::string& kind, const std::string& type,

@@ -32,6 +32,13 @@ void SceneBuilder::make_named_material(const std::string& name, ParameterSet par
   parameters.report_unknown();
 }
 
+void SceneBuilder::note_broken(bool is_medium, const std::string& name) {
+  if (is_medium)
+    media_by_name_.emplace(name, no_medium);
+  else
+    materials_.emplace(name, DiffuseBsdf{Rgb(0.5f)});
+}
+
 void SceneBuilder::named_material(const std::string& name) {
   state_.material = {DiffuseBsdf{Rgb(0.5f)}, name, directive_};
 }

@@ -28,14 +28,11 @@ size_t product(Vec3i v) {
   return static_cast<size_t>(v.x) * static_cast<size_t>(v.y) * static_cast<size_t>(v.z);
 }
 
-// Larger numbers would overflow in optical depths.
-constexpr float largest_density = 1e30f;
-
 // Sets what is not a density to zero.
 BrickGrid::Rejected clean(BrickGrid::Samples samples) {
   BrickGrid::Rejected rejected;
   for (float& v : samples) {
-    if (v >= 0 && v <= largest_density) continue;
+    if (v >= 0 && v <= BrickGrid::largest) continue;
     ++(v < 0 && std::isfinite(v) ? rejected.negative : rejected.not_finite);
     v = 0;
   }

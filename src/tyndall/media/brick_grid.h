@@ -44,6 +44,9 @@ class BrickGrid {
 
   enum class Precision { exact, compact };
 
+  /// Larger numbers count as infinite: they would overflow in optical depths.
+  static constexpr float largest = 1e30f;
+
   /// Numbers that a density cannot be; all count as zero.
   struct Rejected {
     uint64_t negative = 0, not_finite = 0;

@@ -23,10 +23,10 @@ struct NanoVdbEntry {
 /// The directory of a .nvdb file. Throws std::runtime_error without the file's name.
 std::vector<NanoVdbEntry> read_nanovdb_directory(std::ifstream& file);
 
-/// Fills in the least and the largest value, if the grid says them. Throws
+/// Fills in the bounds and, if the grid says them, the least and the largest value. Throws
 /// std::runtime_error without the file's name.
-void read_nanovdb_range(std::ifstream& file, const NanoVdbEntry& entry,
-                        VolumeGridInfo& info);
+void read_nanovdb_details(std::ifstream& file, const NanoVdbEntry& entry,
+                          VolumeGridInfo& info);
 
 /// Reads one grid. Throws std::runtime_error without the file's name.
 PlacedGrid read_nanovdb_grid(std::ifstream& file, const NanoVdbEntry& entry);

@@ -87,10 +87,13 @@ class GridImage {
       : file_(file), entry_(entry), memory_(size_of(entry)) {
     NanoVdbStream stream(file, entry);
     stream.read({memory_.data(), header_size});
-    const auto& header = *reinterpret_cast<const nanovdb::GridData*>(memory_.data());
-    if (header.mMagic != NANOVDB_MAGIC_NUMBER || header.mGridSize > memory_.size() ||
-        static_cast<uint32_t>(header.mGridType) != entry.type)
+    if (header().mMagic != NANOVDB_MAGIC_NUMBER || header().mGridSize > memory_.size() ||
+        static_cast<uint32_t>(header().mGridType) != entry.type)
       throw std::runtime_error("a grid is damaged");
+  }
+
+  const nanovdb::GridData& header() {
+    return *reinterpret_cast<const nanovdb::GridData*>(memory_.data());
   }
 
   template <typename Build>
@@ -229,8 +232,27 @@ void add_range(GridImage& image, VolumeGridInfo& info) {
   image.read_directory<Build>();
   const auto& grid = image.grid<Build>();
   if (!grid.hasMinMax() || info.active_voxels == 0) return;
-  info.min = static_cast<float>(grid.tree().root().minimum());
-  info.max = static_cast<float>(grid.tree().root().maximum());
+  const auto least = static_cast<float>(grid.tree().root().minimum());
+  const auto largest = static_cast<float>(grid.tree().root().maximum());
+  if (!(least <= largest)) return;  // no voxel holds a number
+  info.min = least;
+  info.max = largest;
+}
+
+// The box of the active voxels. What the directory says of it is half a voxel off: it takes
+// a voxel for the cube above its position, not for that about it.
+Bounds3 bounds_of(const nanovdb::Map& map, Vec3i first, Vec3i last) {
+  Bounds3 bounds;
+  for (int corner = 0; corner < 8; ++corner) {
+    const auto along = [&](int axis, int a, int b) {
+      return corner >> axis & 1 ? double{b} + 0.5 : double{a} - 0.5;
+    };
+    const nanovdb::Vec3d p = map.applyMap(nanovdb::Vec3d(
+        along(0, first.x, last.x), along(1, first.y, last.y), along(2, first.z, last.z)));
+    bounds.extend(
+        Vec3{static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])});
+  }
+  return bounds;
 }
 
 // Calls f with a value of the grid's number type.
@@ -257,9 +279,12 @@ auto with_type(const NanoVdbEntry& entry, F&& f) {
 
 }  // namespace
 
-void read_nanovdb_range(std::ifstream& file, const NanoVdbEntry& entry,
-                        VolumeGridInfo& info) {
+void read_nanovdb_details(std::ifstream& file, const NanoVdbEntry& entry,
+                          VolumeGridInfo& info) {
   GridImage image(file, entry);
+  if (info.first.x <= info.last.x)
+    info.bounds = bounds_of(image.header().mMap, info.first, info.last);
+  if (!info.is_scalar) return;
   with_type(entry, [&](auto type) { add_range<decltype(type)>(image, info); });
 }
 

@@ -34,12 +34,33 @@ std::string read_string(std::ifstream& file) {
   return text;
 }
 
-void skip_metadata(std::ifstream& file) {
+void skip_metadata(std::ifstream& file, int64_t size) {
   for (uint32_t count = read<uint32_t>(file); count > 0; --count) {
     read_string(file);  // name
     read_string(file);  // type
-    skip(file, read<uint32_t>(file));
+    const uint32_t value_size = read<uint32_t>(file);
+    if (value_size > size - file.tellg())
+      throw std::runtime_error("its directory is damaged");
+    skip(file, value_size);
   }
+}
+
+bool is_type_name(const std::string& text) {
+  constexpr const char* letters =
+      "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZ_abcdefghijklmnopqrstuvwxyz";
+  return text.find_first_not_of(letters) == std::string::npos;
+}
+
+OpenVdbEntry read_entry(std::ifstream& file) {
+  OpenVdbEntry entry;
+  const std::string name = read_string(file);
+  entry.name = name.substr(0, name.find('\x1e'));
+  entry.type = read_string(file);
+  entry.is_instance = !read_string(file).empty();
+  entry.begin = read<int64_t>(file);
+  skip(file, 8);  // where the voxels begin
+  entry.end = read<int64_t>(file);
+  return entry;
 }
 
 }  // namespace
@@ -54,24 +75,22 @@ std::vector<OpenVdbEntry> read_openvdb_directory(std::ifstream& file) {
   std::vector<OpenVdbEntry> entries;
   if (version < oldest_version || version > newest_version || !has_offsets) return entries;
   skip(file, 36);  // identifier
-  skip_metadata(file);
+  skip_metadata(file, size);
   for (uint32_t count = read<uint32_t>(file); count > 0; --count) {
-    const std::string name = read_string(file);
-    read_string(file);  // type
-    read_string(file);  // the grid that this one is an instance of
-    const int64_t begin = read<int64_t>(file);
-    skip(file, 8);  // where the voxels begin
-    const int64_t end = read<int64_t>(file);
-    entries.push_back({name.substr(0, name.find('\x1e')), ""});
-    if (end > size)
+    entries.push_back(read_entry(file));
+    OpenVdbEntry& entry = entries.back();
+    if (entry.end > size)
       throw std::runtime_error(
-          fmt::format("it is truncated: grid \"{}\" ends at byte {} of {}",
-                      entries.back().name, end, size));
-    file.seekg(begin);
+          fmt::format("it is truncated: grid \"{}\" ends at byte {} of {}", entry.name,
+                      entry.end, size));
+    // Grids lie in a row, each behind its entry.
+    if (!is_type_name(entry.type) || entry.begin < file.tellg() || entry.end < entry.begin)
+      throw std::runtime_error("its directory is damaged");
+    file.seekg(entry.begin);
     constexpr uint32_t zip = 1, blosc = 4;
     const uint32_t flags = read<uint32_t>(file);
-    entries.back().compression = flags & blosc ? "blosc" : flags & zip ? "zip" : "none";
-    file.seekg(end);
+    entry.compression = flags & blosc ? "blosc" : flags & zip ? "zip" : "none";
+    file.seekg(entry.end);
   }
   return entries;
 }

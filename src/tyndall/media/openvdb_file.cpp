@@ -2,6 +2,7 @@
 #include "tyndall/media/openvdb_file.h"
 
 #include <fmt/format.h>
+#include <openvdb/io/DelayedLoadMetadata.h>
 #include <openvdb/io/File.h>
 #include <openvdb/io/GridDescriptor.h>
 #include <openvdb/openvdb.h>
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <mutex>
 #include <stdexcept>
 
 #include "tyndall/media/mapped_pages.h"
@@ -17,11 +19,19 @@
 namespace tyndall {
 namespace {
 
+// The sizes of packed leaves that files repeat for slow disks are not to be trusted: those
+// of a damaged file send the library astray. Without them it looks at the leaves.
+bool initialize_without_sizes() {
+  openvdb::initialize();
+  openvdb::io::DelayedLoadMetadata::unregisterType();
+  return true;
+}
+
 // Opens a file; the library's own exceptions become std::runtime_error, which say less of
 // its insides.
 template <typename F>
 auto with_file(const std::filesystem::path& path, F&& f) {
-  static const bool is_initialized = (openvdb::initialize(), true);
+  static const bool is_initialized = initialize_without_sizes();
   static_cast<void>(is_initialized);
   try {
     openvdb::io::File file(path.string());
@@ -53,13 +63,15 @@ Vec3 to_vec(const openvdb::Vec3d& v) {
 template <typename GridType>
 void add_range(const openvdb::GridBase& base, VolumeGridInfo& info) {
   if (!base.isType<GridType>() || base.activeVoxelCount() == 0) return;
-  info.min = infinity;
-  info.max = -infinity;
+  float least = infinity, largest = -infinity;
   for (auto it = static_cast<const GridType&>(base).cbeginValueOn(); it; ++it) {
     const float v = static_cast<float>(*it);
-    info.min = std::min(info.min, v);
-    info.max = std::max(info.max, v);
+    least = std::min(least, v);
+    largest = std::max(largest, v);
   }
+  if (!(least <= largest)) return;  // no voxel holds a number
+  info.min = least;
+  info.max = largest;
 }
 
 // What stands in the file's directory.
@@ -113,6 +125,26 @@ struct Block {
     return density(static_cast<float>(leaf->getValue(n)), leaf->isValueOn(n));
   }
 };
+
+// A leaf that could not be unpacked cannot be destroyed either: the library takes its
+// values for where they lie in the file. Only for damaged files, so that their trees stay.
+void keep_for_ever(const openvdb::GridBase::Ptr& grid) {
+  static std::mutex mutex;
+  static auto* const grids = new std::vector<openvdb::GridBase::Ptr>;
+  const std::lock_guard lock(mutex);
+  grids->push_back(grid);
+}
+
+// Calls f, which looks at values of the grid and so unpacks them.
+template <typename F>
+auto with_values(const openvdb::GridBase::Ptr& grid, F&& f) {
+  try {
+    return f();
+  } catch (const openvdb::Exception&) {
+    keep_for_ever(grid);
+    throw std::runtime_error(fmt::format("grid \"{}\" is damaged", grid->getName()));
+  }
+}
 
 Matrix4 medium_from_voxel(const openvdb::GridBase& grid) {
   if (!grid.transform().isLinear())
@@ -175,7 +207,8 @@ std::vector<VolumeGridInfo> list_openvdb_grids(const std::filesystem::path& path
   return with_file(path, [](openvdb::io::File& file) {
     std::vector<VolumeGridInfo> infos;
     const openvdb::GridPtrVecPtr grids = file.getGrids();
-    for (const openvdb::GridBase::Ptr& grid : *grids) infos.push_back(make_info(*grid));
+    for (const openvdb::GridBase::Ptr& grid : *grids)
+      infos.push_back(with_values(grid, [&] { return make_info(*grid); }));
     return infos;
   });
 }
@@ -193,9 +226,9 @@ PlacedGrid read_openvdb_grid(const std::filesystem::path& path, const std::strin
   return with_file(path, [&](openvdb::io::File& file) {
     const openvdb::GridBase::Ptr grid = file.readGrid(unique_name(file, name));
     if (const auto floats = openvdb::gridPtrCast<openvdb::FloatGrid>(grid))
-      return convert(*floats, path);
+      return with_values(grid, [&] { return convert(*floats, path); });
     if (const auto doubles = openvdb::gridPtrCast<openvdb::DoubleGrid>(grid))
-      return convert(*doubles, path);
+      return with_values(grid, [&] { return convert(*doubles, path); });
     throw std::runtime_error(
         fmt::format("grids of type {} hold no density", grid->valueType()));
   });

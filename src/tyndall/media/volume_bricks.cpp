@@ -28,12 +28,14 @@ struct Axis {
 BrickLayout lay_out_bricks(Vec3i first, Vec3i last) {
   const Axis x{first.x, last.x}, y{first.y, last.y}, z{first.z, last.z};
   if (x.count() > max_bricks || y.count() > max_bricks || z.count() > max_bricks ||
-      x.count() * y.count() > max_bricks ||
-      x.count() * y.count() * z.count() > max_bricks ||
-      std::min({x.origin(), y.origin(), z.origin()}) < INT32_MIN)
+      x.count() * y.count() > max_bricks || x.count() * y.count() * z.count() > max_bricks)
     throw std::runtime_error(
         fmt::format("the active voxels span {} x {} x {}, more than fits in memory",
                     x.last - x.first + 1, y.last - y.first + 1, z.last - z.first + 1));
+  if (std::min({x.origin(), y.origin(), z.origin()}) < INT32_MIN)
+    throw std::runtime_error(
+        fmt::format("the active voxels begin at ({}, {}, {}), too far from the origin",
+                    first.x, first.y, first.z));
   const auto narrow = [](int64_t a, int64_t b, int64_t c) {
     return Vec3i{static_cast<int>(a), static_cast<int>(b), static_cast<int>(c)};
   };

@@ -13,6 +13,7 @@
 
 #include "tyndall/media/nanovdb_file.h"
 #include "tyndall/media/openvdb_file.h"
+#include "tyndall/media/volume_in_hand.h"
 
 namespace tyndall {
 namespace {
@@ -26,7 +27,8 @@ Container container_of(std::ifstream& file) {
   file.read(head.data(), head.size());
   file.clear();
   if (head == openvdb_magic) {
-    read_openvdb_directory(file);
+    for (const OpenVdbEntry& entry : read_openvdb_directory(file))
+      check_openvdb_grid(file, entry, /*with_tree=*/false);
     return Container::openvdb;
   }
   if (std::equal(nanovdb_magic.begin(), nanovdb_magic.end(), head.begin()))
@@ -40,6 +42,7 @@ auto with_volume(const std::filesystem::path& path, F&& f) {
   try {
     std::ifstream file(path, std::ios::binary);
     if (!file) throw std::runtime_error(std::strerror(errno));
+    const VolumeInHand in_hand(path);
     return f(file, container_of(file));
   } catch (const std::bad_alloc&) {
     throw std::runtime_error(fmt::format("{}: not enough memory", path.string()));
@@ -97,14 +100,16 @@ std::vector<VolumeGridInfo> list_volume_grids(const std::filesystem::path& path)
   return with_volume(path, [&](std::ifstream& file, Container container) {
     std::vector<VolumeGridInfo> infos;
     if (container == Container::openvdb) {
+      const std::vector<OpenVdbEntry> entries = read_openvdb_directory(file);
+      for (const OpenVdbEntry& entry : entries) check_openvdb_grid(file, entry, true);
       infos = list_openvdb_grids(path);
-      for (const OpenVdbEntry& entry : read_openvdb_directory(file))
+      for (const OpenVdbEntry& entry : entries)
         for (VolumeGridInfo& info : infos)
           if (info.name == entry.name) info.compression = entry.compression;
     } else {
       for (const NanoVdbEntry& entry : read_nanovdb_directory(file)) {
         infos.push_back(entry.info);
-        if (entry.info.is_scalar) read_nanovdb_range(file, entry, infos.back());
+        read_nanovdb_details(file, entry, infos.back());
       }
     }
     return infos;
@@ -123,7 +128,10 @@ PlacedGrid read_volume(const std::filesystem::path& path,
   return with_volume(path, [&](std::ifstream& file, Container container) {
     if (container == Container::openvdb) {
       const std::vector<VolumeGridInfo> grids = list_openvdb_names(path);
-      return read_openvdb_grid(path, grids[find_grid(grids, names)].name);
+      const std::string& name = grids[find_grid(grids, names)].name;
+      for (const OpenVdbEntry& entry : read_openvdb_directory(file))
+        if (entry.name == name) check_openvdb_grid(file, entry, true);
+      return read_openvdb_grid(path, name);
     }
     const std::vector<NanoVdbEntry> entries = read_nanovdb_directory(file);
     return read_nanovdb_grid(file, entries[find_grid(infos_of(entries), names)]);

@@ -21,7 +21,8 @@ struct VolumeGridInfo {
   std::string type;   ///< "float", "vec3s", "points" ...
   bool is_scalar;     ///< whether read_volume() takes it
   Vec3i first, last;  ///< active voxels, inclusive; first > last if there are none
-  Bounds3 bounds;     ///< of the active voxels, in the file's space
+  Bounds3 bounds;     ///< of the active voxels, cubes about their positions, in the file's
+                      ///< space; what is read fades to zero half a voxel farther out
   Vec3 voxel_size;    ///< in the file's space
   uint64_t active_voxels;
   uint64_t memory;            ///< uncompressed, as the file stores it [bytes]
@@ -31,7 +32,9 @@ struct VolumeGridInfo {
 };
 
 /// The grids of a .vdb or .nvdb file, told apart by their contents.
-/// Throws std::runtime_error that names the file if it cannot be read.
+/// Throws std::runtime_error that names the file if it cannot be read. OpenVDB crashes on
+/// what is damaged of grids of points and of files of versions before 222, see
+/// VolumeInHand; all else is checked before.
 std::vector<VolumeGridInfo> list_volume_grids(const std::filesystem::path& path);
 
 /// Only names and types are sure to be filled in, which is much faster.
