@@ -123,8 +123,12 @@ TEST(LoadUniformGridTest, WarnsOfWhatCountsAsZero) {
       "MakeNamedMedium \"m\": the density is zero everywhere: an empty medium";
   EXPECT_EQ(warnings_of("\"uniformgrid\" \"integer nx\" 2 \"float density\" [1 3e38]"),
             Messages{large});
-  EXPECT_EQ(warnings_of("\"uniformgrid\" \"integer nx\" 2 \"float density\" [1 1e30]"),
+  EXPECT_EQ(warnings_of("\"uniformgrid\" \"integer nx\" 2 \"float density\" [1 1e10]"),
             Messages{});
+  EXPECT_EQ(
+      warnings_of("\"uniformgrid\" \"integer nx\" 2 \"float density\" [1 1e30]"),
+      Messages{"MakeNamedMedium \"m\": some densities are reduced: from one sample to "
+               "the next they would make an optical depth of more than 1e12"});
   EXPECT_EQ(warnings_of("\"uniformgrid\" \"float density\" 0"), Messages{empty});
   EXPECT_EQ(warnings_of("\"uniformgrid\" \"float density\" 1e31"),
             (Messages{large, empty}));

@@ -88,7 +88,9 @@ std::optional<Medium> make_uniform_grid(const MediumContext& in) {
   const PlacedGrid placed = place_in_box(*density, box);
   if (placed.grid->is_empty())
     p.warning("density", "the density is zero everywhere: an empty medium");
-  return Medium(GridMedium(placed, in.world_from_medium, properties, phase, emission));
+  const GridMedium medium(placed, in.world_from_medium, properties, phase, emission);
+  warn_of_reduced(p, "density", medium);
+  return Medium(medium);
 }
 
 std::optional<Medium> make_rgb_grid(const MediumContext& in) {

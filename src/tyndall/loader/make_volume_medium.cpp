@@ -113,7 +113,9 @@ std::optional<Medium> make_volume(const MediumContext& in) {
   const GridEmission emission = read_emission(p, path);
   if (emission.temperature) properties.Le = Rgb(1);
   properties.Le *= Le_scale;
-  return Medium(GridMedium(*density, in.world_from_medium, properties, phase, emission));
+  const GridMedium medium(*density, in.world_from_medium, properties, phase, emission);
+  warn_of_reduced(p, "filename", medium);
+  return Medium(medium);
 }
 
 }  // namespace tyndall::loader

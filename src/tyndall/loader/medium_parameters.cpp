@@ -99,6 +99,14 @@ std::optional<DensityGrid> read_grid(ParameterSet& parameters, std::string_view 
   return DensityGrid{n, std::move(values)};
 }
 
+void warn_of_reduced(const ParameterSet& parameters, std::string_view name,
+                     const GridMedium& medium) {
+  if (!medium.is_reduced()) return;
+  parameters.warning(name,
+                     "some densities are reduced: from one sample to the next they would "
+                     "make an optical depth of more than 1e12");
+}
+
 TemperatureScale read_temperature_scale(ParameterSet& parameters) {
   const float cutoff = parameters.number("temperaturecutoff", 0);
   return {parameters.number("temperatureoffset", cutoff),

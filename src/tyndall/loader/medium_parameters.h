@@ -41,6 +41,10 @@ Bounds3 read_box(ParameterSet& parameters);
 std::optional<DensityGrid> read_grid(ParameterSet& parameters, std::string_view name,
                                      Vec3i resolution);
 
+/// Reports a medium with GridMedium::is_reduced().
+void warn_of_reduced(const ParameterSet& parameters, std::string_view name,
+                     const GridMedium& medium);
+
 /// How a temperature becomes a color: black body at (temperature - offset) * scale [K].
 struct TemperatureScale {
   float offset, scale;

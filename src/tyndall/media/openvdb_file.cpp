@@ -13,6 +13,7 @@
 #include <mutex>
 #include <stdexcept>
 
+#include "tyndall/math/parallel_for.h"
 #include "tyndall/media/mapped_pages.h"
 #include "tyndall/media/volume_bricks.h"
 
@@ -170,6 +171,16 @@ void drop_leaves_below(Tree& tree, int x) {
     delete tree.template stealNode<Leaf>(origin, 0, false);
 }
 
+// Of the leaves that begin at x in [first, last). Each is looked at by one thread: whoever
+// looked after a failure at one that cannot be unpacked would crash.
+template <typename Tree>
+void unpack_leaves(const Tree& tree, int first, int last) {
+  std::vector<const typename Tree::LeafNodeType*> leaves;
+  for (auto leaf = tree.cbeginLeaf(); leaf; ++leaf)
+    if (leaf->origin().x() >= first && leaf->origin().x() < last) leaves.push_back(&*leaf);
+  parallel_for(leaves.size(), [&](size_t i) { static_cast<void>(leaves[i]->getValue(0)); });
+}
+
 // The grid's values are read out of a map of the file when they are first looked at; leaves
 // that lie behind the bricks in hand are dropped, and so is what was read of the map.
 template <typename GridType>
@@ -192,11 +203,14 @@ PlacedGrid convert(GridType& grid, const std::filesystem::path& path) {
       return Block<typename Tree::LeafNodeType>{leaf, tile, density};
     });
   };
-  const auto drop_leaves = [&](int first, int /*last*/) {
-    drop_leaves_below(grid.tree(), layout.origin.x + first * BrickGrid::edge);
+  const auto prepare = [&](int first, int last) {
+    const int begin = layout.origin.x + first * BrickGrid::edge;
+    drop_leaves_below(grid.tree(), begin);
+    // Bricks share the samples at their ends.
+    unpack_leaves(tree, begin, layout.origin.x + last * BrickGrid::edge + 1);
     release_mapped_pages(path);
   };
-  PlacedGrid placed = place_bricks(layout, medium_from_voxel(grid), source, drop_leaves);
+  PlacedGrid placed = place_bricks(layout, medium_from_voxel(grid), source, prepare);
   placed.is_from_level_set = is_level_set;
   return placed;
 }
