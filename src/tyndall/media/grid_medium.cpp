@@ -28,9 +28,10 @@ GridMedium::GridMedium(const PlacedGrid& density, const Transform& world_from_me
   world_from_grid_ = world_from_medium * density.medium_from_grid;
   space_ = GridSpace(world_from_grid_.inverse());
   if (!box_.is_empty()) world_bounds_ = world_from_grid_.bounds(box_);
-  constexpr float opaque = 1e12f;
+  constexpr float opaque = 1e12f, many = 64;
   const float unit_depth = max_component(sigma_t_) * sample_distance(world_from_grid_);
   if (unit_depth > 0) largest_ = opaque / unit_depth;
+  if (unit_depth > 0) rough_ = many / max_component(sigma_t_);
   if (!emission.is_constant())
     emission_ = std::make_shared<EmissionLookup>(emission, world_from_medium);
 }
@@ -44,9 +45,8 @@ GridMedium::GridMedium(const DensityGrid& density, const Bounds3& bounds,
 void GridMedium::Segments::look_closer(const CellWalk::Step& step) {
   const Vec3i bricks = medium_->density_->brick_count();
   constexpr int edge = BrickGrid::edge;
-  among_samples_ = CellWalk({edge * bricks.x, edge * bricks.y, edge * bricks.z}, 1, ray_,
-                            step.t_min, step.t_max);
-  is_in_samples_ = true;
+  among_samples_.emplace(Vec3i{edge * bricks.x, edge * bricks.y, edge * bricks.z}, 1.0f,
+                         ray_, step.t_min, step.t_max);
 }
 
 bool GridMedium::Segments::next_among_samples(MediumSegment& segment) {
@@ -54,7 +54,7 @@ bool GridMedium::Segments::next_among_samples(MediumSegment& segment) {
   const auto row = static_cast<size_t>(BrickGrid::edge * density.brick_count().x);
   const auto column = static_cast<size_t>(BrickGrid::edge * density.brick_count().y);
   CellWalk::Step step;
-  while (among_samples_.next(step)) {
+  while (among_samples_->next(step)) {
     const Vec3i first{static_cast<int>(step.cell % row),
                       static_cast<int>(step.cell / row % column),
                       static_cast<int>(step.cell / (row * column))};
@@ -64,7 +64,7 @@ bool GridMedium::Segments::next_among_samples(MediumSegment& segment) {
     take({range.max * (1 + 1e-6f), range.mean}, step, segment);
     return true;
   }
-  is_in_samples_ = false;
+  among_samples_.reset();
   return false;
 }
 

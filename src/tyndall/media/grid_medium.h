@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 #include "tyndall/geometry/cell_walk.h"
 #include "tyndall/geometry/grid_space.h"
@@ -45,16 +46,15 @@ class GridMedium {
     }
 
     bool next(MediumSegment& segment) {
+      if (among_samples_) [[unlikely]]
+        if (next_among_samples(segment)) return true;
       CellWalk::Step step;
-      while (is_in_samples_ || walk_.next(step)) {
-        if (is_in_samples_) {
-          if (next_among_samples(segment)) return true;
-          continue;
-        }
+      while (walk_.next(step)) {
         const MajorantCell& cell = medium_->majorants_->cell(step.cell);
         if (cell.majorant == 0) continue;
-        if (medium_->is_rough(cell, step.t_max - step.t_min)) {
+        if (medium_->is_rough(cell, step.t_max - step.t_min)) [[unlikely]] {
           look_closer(step);
+          if (next_among_samples(segment)) return true;
           continue;
         }
         take(cell, step, segment);
@@ -65,17 +65,18 @@ class GridMedium {
 
     /// The medium at a distance in the last segment; never above its majorant.
     MediumProperties at(float t) const {
-      return medium_->properties(std::min(density(t), majorant_), world_ray_.at(t));
+      return medium_->properties(std::min(unbounded(t), majorant_), world_ray_.at(t));
     }
     Rgb sigma_t(float t) const {
-      return medium_->sigma_t_ * std::min(density(t), majorant_);
+      return medium_->sigma_t_ * std::min(unbounded(t), majorant_);
     }
 
     /// Extinction at any distance along the ray, in any order.
     Rgb sigma_t_anywhere(float t) const { return medium_->sigma_t_ * density(t); }
-    float density(float t) const { return medium_->density(ray_.at(t - t_offset_)); }
+    float density(float t) const { return std::min(unbounded(t), medium_->largest_); }
 
    private:
+    float unbounded(float t) const { return medium_->density(ray_.at(t - t_offset_)); }
     void take(const MajorantCell& cell, const CellWalk::Step& step,
               MediumSegment& segment) {
       majorant_ = std::min(cell.majorant, medium_->largest_);
@@ -92,11 +93,12 @@ class GridMedium {
     float t_offset_ = 0;
     float majorant_ = 0;  // of the density in the last segment
     CellWalk walk_;
-    bool is_in_samples_ = false;  // in a rough cell: on the way between its samples
-    CellWalk among_samples_;
+    std::optional<CellWalk> among_samples_;  // on the way through a rough cell
   };
 
-  MediumProperties at(Vec3 p) const { return properties(density(space_.point(p)), p); }
+  MediumProperties at(Vec3 p) const {
+    return properties(std::min(density(space_.point(p)), largest_), p);
+  }
   Segments segments(const Ray& ray, float t_max) const { return {*this, ray, t_max}; }
   bool is_emissive() const { return !is_black(properties_.sigma_a * properties_.Le); }
   bool is_grey() const {
@@ -118,14 +120,13 @@ class GridMedium {
 
  private:
   float density(Vec3 p_grid) const {
-    return box_.contains(p_grid) ? std::min(density_->interpolate(p_grid), largest_) : 0;
+    return box_.contains(p_grid) ? density_->interpolate(p_grid) : 0;
   }
   /// Whether a ray over this length of the cell would meet its majorant so often, and
   /// mostly in vain, that bounds of their own for all samples are worth finding.
   bool is_rough(const MajorantCell& cell, float length) const {
-    constexpr float many = 64, in_vain = 8;
-    return cell.majorant * max_component(sigma_t_) * length > many &&
-           cell.majorant > in_vain * cell.mean;
+    constexpr float in_vain = 8;
+    return cell.majorant * length > rough_ && cell.majorant > in_vain * cell.mean;
   }
   MediumProperties properties(float density, Vec3 p) const {
     const bool varies = emission_ && density > 0;
@@ -143,6 +144,7 @@ class GridMedium {
   MediumProperties properties_;
   Rgb sigma_t_;
   float largest_ = infinity;
+  float rough_ = infinity;  // densities times lengths from which cells may be rough
   PhaseFunction phase_;
 };
 

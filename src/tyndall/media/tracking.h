@@ -17,20 +17,25 @@ inline Rgb optical_depth(Rgb sigma, float length) {
           sigma.b != 0 ? sigma.b * length : 0};
 }
 
-/// Where a walk stands in a segment. In double: in media so dense that a free flight is
-/// shorter than the floats there lie apart, it must get on all the same.
+/// Where a walk stands in a segment. In media so dense that a free flight is shorter than
+/// the floats there lie apart, it must get on all the same: what rounding has left out is
+/// kept for the next one.
 class SegmentPosition {
  public:
   explicit SegmentPosition(const MediumSegment& segment)
-      : t_(double{segment.t_min}), t_max_(double{segment.t_max}) {}
+      : t_(segment.t_min), t_max_(segment.t_max) {}
 
-  float t() const { return static_cast<float>(t_); }
+  float t() const { return t_; }
   /// The length that is left of the segment.
-  float rest() const { return static_cast<float>(t_max_ - t_); }
-  void advance(float length) { t_ = std::min(t_ + double{length}, t_max_); }
+  float rest() const { return t_max_ - t_; }
+  void advance(float length) {
+    const float step = length + left_out_, before = t_;
+    t_ = std::min(before + step, t_max_);
+    left_out_ = step - (t_ - before);
+  }
 
  private:
-  double t_, t_max_;
+  float t_, t_max_, left_out_ = 0;
 };
 
 /// An exponentially distributed optical depth of mean one.
