@@ -87,7 +87,7 @@ def largest_t(np, a, b):
                                            for runs in (a, b)))
 
 
-def row(np, name, runs, base, base_name):
+def row(np, name, runs, base):
     import efficiency
     mean = np.mean([run["mean"] for run in runs], axis=0)
     weight = 1 / (mean**2 + 0.01 * mean.mean()**2)
@@ -137,7 +137,7 @@ def main():
                     runs[name].append(kind.run(seed))
             base = None
             for name in kinds:
-                result = row(np, f"{scene} {variant} {name}", runs[name], base, "Mitsuba")
+                result = row(np, f"{scene} {variant} {name}", runs[name], base)
                 base = base or result
                 disagrees |= result.get("disagrees", False)
     return int(disagrees)
