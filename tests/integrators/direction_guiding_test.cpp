@@ -167,21 +167,24 @@ TEST(DirectionGuidingTest, StaysBelowTheMemoryThatItIsGiven) {
   }
 }
 
-// What is learned from few samples is no bias.
-TEST(DirectionGuidingTest, LittleMemoryIsNoBias) {
-  const Scene scene(lamp_over_disk());
-  ConnectionSettings settings =
-      connection_settings("zhou2016", {{"learned.memory", "0.1"}});
+// What is learned in 64 samples of a pixel is no bias of `count` others.
+void expect_no_bias(const Scene& scene, const ConnectionSettings& settings,
+                    uint32_t count) {
   PathTracer guided(scene, order_two(1), settings);
   for (uint32_t first = 0, next = 0; first < 64; first = next) {
     next = guided.prepare(first);
     mean_of(scene, guided, first, next - first, 1);
   }
   guided.prepare(64);
-  const RunningMoments learned = mean_of(scene, guided, 64, 400, 2);
+  const RunningMoments learned = mean_of(scene, guided, 64, count, 2);
   const auto volpath = make_integrator(scene, order_two(1, "volpath"));
   const RunningMoments reference = mean_of(scene, *volpath, 0, 4000, 1);
   EXPECT_GT(welch_p_value(reference, learned), 0.005);
+}
+
+TEST(DirectionGuidingTest, LittleMemoryIsNoBias) {
+  expect_no_bias(Scene(lamp_over_disk()),
+                 connection_settings("zhou2016", {{"learned.memory", "0.1"}}), 400);
 }
 
 // Six lamps around, of which black spheres hide all but the first.
@@ -236,17 +239,7 @@ TEST(DirectionGuidingTest, LearnsWhichLightsContribute) {
 }
 
 TEST(DirectionGuidingTest, LightsThatAreChosenByWhatTheyContributedAreNoBias) {
-  const Scene scene(lamps_in_boxes());
-  PathTracer guided(scene, order_two(1), connection_settings("zhou2016", {}));
-  for (uint32_t first = 0, next = 0; first < 64; first = next) {
-    next = guided.prepare(first);
-    mean_of(scene, guided, first, next - first, 1);
-  }
-  guided.prepare(64);
-  const RunningMoments learned = mean_of(scene, guided, 64, 600, 2);
-  const auto volpath = make_integrator(scene, order_two(1, "volpath"));
-  const RunningMoments reference = mean_of(scene, *volpath, 0, 4000, 1);
-  EXPECT_GT(welch_p_value(reference, learned), 0.005);
+  expect_no_bias(Scene(lamps_in_boxes()), connection_settings("zhou2016", {}), 600);
 }
 
 TEST(DirectionGuidingTest, AllLightsHiddenTeachNothing) {

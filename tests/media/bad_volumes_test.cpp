@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <fstream>
-#include <iterator>
 
 #include "image/temporary_folder.h"
 #include "support/volume_writer.h"
@@ -144,9 +143,7 @@ TEST_P(BadVolumeTest, NamesMayBeThereTwice) {
 TEST_P(BadVolumeTest, TruncatedFilesSayHowTheyEnd) {
   write({{.voxels = test::filled_box({0, 0, 0}, {40, 40, 40}, 1)},
          {.name = "temperature", .voxels = test::filled_box({0, 0, 0}, {9, 9, 9}, 1)}});
-  std::ifstream file(path(), std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
-  file.close();
+  const std::string bytes = test::read_bytes(path());
   for (int percent = 0; percent < 100; percent += 3) {
     std::ofstream(path(), std::ios::binary)
         << bytes.substr(0, bytes.size() * static_cast<size_t>(percent) / 100);
@@ -160,9 +157,7 @@ TEST_P(BadVolumeTest, TruncatedFilesSayHowTheyEnd) {
 
 TEST_P(BadVolumeTest, DamagedBytesNeverCrash) {
   write({{.voxels = test::filled_box({0, 0, 0}, {20, 20, 20}, 1)}});
-  std::ifstream file(path(), std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
-  file.close();
+  const std::string bytes = test::read_bytes(path());
   RandomStream rng(3);
   for (int i = 0; i < 200; ++i) {
     std::string damaged = bytes;
@@ -182,9 +177,7 @@ TEST(BadVdbTest, DamageIsAnErrorThatNamesTheGrid) {
   const TemporaryFolder folder;
   const std::string path = folder.file("v.vdb");
   test::write_vdb(path, {{.voxels = test::filled_box({0, 0, 0}, {40, 40, 40}, 1)}});
-  std::ifstream file(path, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
-  file.close();
+  const std::string bytes = test::read_bytes(path);
   int damaged_count = 0;
   for (size_t at = 60; at + 4 < bytes.size(); at += 61) {
     std::string damaged = bytes;
@@ -201,9 +194,7 @@ TEST(BadVdbTest, HeadersAreCheckedBeforeTheyAreBelieved) {
   const TemporaryFolder folder;
   const std::string path = folder.file("v.vdb");
   test::write_vdb(path, {{.voxels = test::filled_box({0, 0, 0}, {9, 9, 9}, 1)}});
-  std::ifstream file(path, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
-  file.close();
+  const std::string bytes = test::read_bytes(path);
   const auto complaint = [&](const std::string& word, size_t behind, const char* with) {
     std::string damaged = bytes;
     damaged.replace(damaged.find(word) + behind, 4, with);

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
@@ -23,11 +22,6 @@ namespace fs = std::filesystem;
 
 const fs::path shared = fs::path(TYNDALL_SOURCE_DIR) / "../shared/scenes";
 constexpr std::string_view density_name[] = {"density"};
-
-std::string read_bytes(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 /// A file of this test's own, removed at its end.
 class TemporaryFile {
@@ -171,7 +165,7 @@ TEST_F(SharedVolumes, TruncatedFilesAreErrors) {
   for (const char* name :
        {"data/vdb/oiio_sphere.vdb", "data/vdb/shadeops_teapot_cloud.nvdb",
         "data/vdb/fvdb_smoke-blosc.nvdb"}) {
-    const std::string bytes = read_bytes(shared / name);
+    const std::string bytes = test::read_bytes(shared / name);
     for (const double share : {0.0, 1e-5, 1e-4, 1e-3, 0.1, 0.5, 0.9, 0.999})
       EXPECT_NE(
           complaint(bytes.substr(0, static_cast<size_t>(share * double(bytes.size())))),
@@ -181,7 +175,8 @@ TEST_F(SharedVolumes, TruncatedFilesAreErrors) {
 }
 
 TEST_F(SharedVolumes, DamagedNanoVdbFilesAreErrors) {
-  const std::string bytes = read_bytes(shared / "data/vdb/shadeops_teapot_cloud.nvdb");
+  const std::string bytes =
+      test::read_bytes(shared / "data/vdb/shadeops_teapot_cloud.nvdb");
   const auto damage = [&](size_t at, char value) {
     std::string copy = bytes;
     for (size_t i = 0; i < 7; ++i) copy[at + i] = value;

@@ -7,6 +7,8 @@
 #include <nanovdb/util/IO.h>
 
 #include <cmath>
+#include <fstream>
+#include <iterator>
 
 namespace tyndall::test {
 namespace {
@@ -26,6 +28,11 @@ nanovdb::GridHandle<nanovdb::HostBuffer> make_grid(const TestGrid& test) {
 }
 
 }  // namespace
+
+std::string read_bytes(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
 
 std::vector<TestVoxel> filled_box(Vec3i first, Vec3i last, float value) {
   std::vector<TestVoxel> voxels;

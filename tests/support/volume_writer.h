@@ -25,6 +25,9 @@ struct TestGrid {
   float half_width = 0;
 };
 
+/// What is in a file.
+std::string read_bytes(const std::filesystem::path& path);
+
 /// The voxels [first, last], all of one value.
 std::vector<TestVoxel> filled_box(Vec3i first, Vec3i last, float value);
 

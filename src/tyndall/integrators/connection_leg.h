@@ -52,9 +52,8 @@ class ConnectionContext {
     constexpr float least = 1e-20f;
     const Rgb sigma_t = filling_sigma_t_;
     if (is_black(sigma_t)) return 1;
-    const bool is_grey = sigma_t.r == sigma_t.g && sigma_t.g == sigma_t.b;
-    const float T = is_grey ? std::exp(-sigma_t.r * distance)
-                            : average(exp(-1 * optical_depth(sigma_t, distance)));
+    const float T = is_grey(sigma_t) ? std::exp(-sigma_t.r * distance)
+                                     : average(exp(-1 * optical_depth(sigma_t, distance)));
     return std::max(T, least);
   }
   /// Null if directions are not learned.

@@ -86,8 +86,7 @@ std::optional<Medium> make_uniform_grid(const MediumContext& in) {
   const auto density = read_grid(p, "density", n);
   if (!density) return std::nullopt;
   const PlacedGrid placed = place_in_box(*density, box);
-  if (placed.grid->is_empty())
-    p.warning("density", "the density is zero everywhere: an empty medium");
+  warn_if_empty(p, "density", placed);
   const GridMedium medium(placed, in.world_from_medium, properties, phase, emission);
   warn_of_reduced(p, "density", medium);
   return Medium(medium);

@@ -53,8 +53,7 @@ std::optional<PlacedGrid> read_density(ParameterSet& parameters, const std::stri
         "filename",
         "the grid is a level set: the density is one inside its surface, and "
         "fades to zero there");
-  if (placed->grid->is_empty())
-    parameters.warning("filename", "the density is zero everywhere: an empty medium");
+  warn_if_empty(parameters, "filename", *placed);
   return placed;
 }
 

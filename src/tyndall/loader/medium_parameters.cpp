@@ -99,6 +99,12 @@ std::optional<DensityGrid> read_grid(ParameterSet& parameters, std::string_view 
   return DensityGrid{n, std::move(values)};
 }
 
+void warn_if_empty(const ParameterSet& parameters, std::string_view name,
+                   const PlacedGrid& density) {
+  if (density.grid->is_empty())
+    parameters.warning(name, "the density is zero everywhere: an empty medium");
+}
+
 void warn_of_reduced(const ParameterSet& parameters, std::string_view name,
                      const GridMedium& medium) {
   if (!medium.is_reduced()) return;

@@ -41,6 +41,10 @@ Bounds3 read_box(ParameterSet& parameters);
 std::optional<DensityGrid> read_grid(ParameterSet& parameters, std::string_view name,
                                      Vec3i resolution);
 
+/// Reports a density that is zero everywhere.
+void warn_if_empty(const ParameterSet& parameters, std::string_view name,
+                   const PlacedGrid& density);
+
 /// Reports a medium with GridMedium::is_reduced().
 void warn_of_reduced(const ParameterSet& parameters, std::string_view name,
                      const GridMedium& medium);

@@ -30,8 +30,10 @@ GridMedium::GridMedium(const PlacedGrid& density, const Transform& world_from_me
   if (!box_.is_empty()) world_bounds_ = world_from_grid_.bounds(box_);
   constexpr float opaque = 1e12f, many = 64;
   const float unit_depth = max_component(sigma_t_) * sample_distance(world_from_grid_);
-  if (unit_depth > 0) largest_ = opaque / unit_depth;
-  if (unit_depth > 0) rough_ = many / max_component(sigma_t_);
+  if (unit_depth > 0) {
+    largest_ = opaque / unit_depth;
+    rough_ = many / max_component(sigma_t_);
+  }
   if (!emission.is_constant())
     emission_ = std::make_shared<EmissionLookup>(emission, world_from_medium);
 }
