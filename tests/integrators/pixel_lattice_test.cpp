@@ -42,18 +42,21 @@ TEST(PixelLattice, EachPixelComesOnce) {
 }
 
 TEST(PixelLattice, StridesAreHalvedDownToOne) {
-  const Vec2i min{3, 5}, max{90, 70};
-  Counts counts;
-  int stride = 32;
-  for (const PixelLattice& lattice : pixels_from_coarse_to_fine(min, max)) {
-    count_pixels(lattice, counts);
-    Counts expected;
-    for (int y = min.y; y < max.y; y += stride)
-      for (int x = min.x; x < max.x; x += stride) expected[{x, y}] = 1;
-    EXPECT_EQ(counts, expected) << stride;
-    stride /= 2;
+  for (const auto& [size, first_stride] :
+       {std::pair(Vec2i{1000, 1000}, 32), std::pair(Vec2i{125, 128}, 4)}) {
+    const Vec2i min{3, 5}, max = min + size;
+    Counts counts;
+    int stride = first_stride;
+    for (const PixelLattice& lattice : pixels_from_coarse_to_fine(min, max)) {
+      count_pixels(lattice, counts);
+      Counts expected;
+      for (int y = min.y; y < max.y; y += stride)
+        for (int x = min.x; x < max.x; x += stride) expected[{x, y}] = 1;
+      EXPECT_EQ(counts, expected) << stride;
+      stride /= 2;
+    }
+    EXPECT_EQ(stride, 0);
   }
-  EXPECT_EQ(stride, 0);
 }
 
 // An eighth of the tiles has an eighth of each quarter of the picture, up to a tenth of it.

@@ -6,7 +6,9 @@
 namespace tyndall {
 namespace {
 
-constexpr int coarsest_stride = 32;
+constexpr int largest_stride = 32;
+// Fewer leave threads without work.
+constexpr size_t least_tiles = 16;
 
 size_t count_along(int size, int of_one) {
   return static_cast<size_t>((size + of_one - 1) / of_one);
@@ -38,9 +40,11 @@ std::vector<PixelLattice> all_pixels(Vec2i min, Vec2i max) {
 
 std::vector<PixelLattice> pixels_from_coarse_to_fine(Vec2i min, Vec2i max) {
   std::vector<PixelLattice> lattices;
-  for (int stride = coarsest_stride; stride >= 1; stride /= 2)
-    lattices.emplace_back(min, max, stride, stride == coarsest_stride,
-                          PixelLattice::Tiles::scattered);
+  for (int stride = largest_stride; stride >= 1; stride /= 2) {
+    const PixelLattice lattice(min, max, stride, lattices.empty(),
+                               PixelLattice::Tiles::scattered);
+    if (lattice.tiles() >= least_tiles || stride == 1) lattices.push_back(lattice);
+  }
   return lattices;
 }
 

@@ -40,7 +40,7 @@ class PixelLattice {
 std::vector<PixelLattice> all_pixels(Vec2i min, Vec2i max);
 /// Each pixel once, so that those of any first part are spread over the picture as evenly
 /// as may be: every 32nd pixel of every 32nd row, then what is missing of every 16th, and
-/// so on.
+/// so on. Small pictures begin with smaller strides.
 std::vector<PixelLattice> pixels_from_coarse_to_fine(Vec2i min, Vec2i max);
 
 template <typename Visit>
