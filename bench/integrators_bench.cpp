@@ -89,7 +89,7 @@ void BM_Paths(benchmark::State& state, const std::string& name) {
   const std::unique_ptr<Integrator> integrator = make_integrator(*scene, settings);
   uint32_t i = 0, allowed = 0;
   for (auto _ : state) {
-    if (i >= allowed) allowed = integrator->prepare(i);
+    if (i >= allowed) allowed = integrator->prepare(i, {});
     Sampler sampler(SamplerKind::sobol, 1, {0, 0}, i++);
     const Ray ray = random_ray(sampler);
     benchmark::DoNotOptimize(integrator->Li(ray, sampler));

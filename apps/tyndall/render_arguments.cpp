@@ -36,7 +36,7 @@ void declare_quality(Command& command, RenderArguments& a) {
       .option("--spp,--samples", store(&a.samples_per_pixel, parse_sample_count),
               "samples per pixel", {.value = "N", .group = group})
       .option("--time", store(&a.time_limit, parse_duration),
-              "stop after this time, at the end of the pass in hand: 30s, 10m, 1h30m",
+              "stop after this time, from the end of loading on: 30s, 10m, 1h30m",
               {.value = "TIME", .group = group})
       .option("--integrator", &a.integrator, "how light is transported [learned]",
               {.choices = integrator_names(), .group = group})

@@ -85,6 +85,7 @@ std::string to_json(const RenderReport& report, const Image& image) {
       {"max_depth", settings.max_depth},
       {"samples_per_pixel", s.samples_per_pixel},
       {"samples_per_pixel_wanted", settings.samples_per_pixel},
+      {"unsampled_pixels", s.unsampled_pixels},
       {"stopped_early", s.stopped_early},
       {"threads", s.threads},
       {"seconds", s.seconds},

@@ -11,7 +11,7 @@ import unittest
 
 import numpy as np
 
-from program import PROGRAM, ProgramTest
+from program import ProgramTest
 
 QUICK = ["--integrators", "volpath,jis", "--time", "0.05", "--seeds", "2", "--make-reference",
          "--reference-time", "0.2", "--no-flip", "-o", "out"]

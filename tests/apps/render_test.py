@@ -4,15 +4,11 @@
 
 import json
 import os
-import signal
-import struct
-import subprocess
-import time
 import unittest
 
 import numpy as np
 
-from program import FOG, PROGRAM, ROOT, ProgramTest
+from program import FOG, ROOT, ProgramTest
 
 SEE = "See 'tyndall render --help'.\n"
 
@@ -370,134 +366,6 @@ class SceneErrorTest(ProgramTest):
         self.assertEqual(result.returncode, 2)
         self.assertIn(where.format("error"), result.stderr)
         self.assertEqual(self.files(), ["fog.pbrt", "odd.pbrt"])
-
-
-class StoppingTest(ProgramTest):
-    def start_and_wait(self, *arguments):
-        """Starts a render without end, returns it as soon as it has shown progress twice."""
-        process = self.start_program("render", "fog.pbrt", "-o", "a.exr", "--spp", "100000000",
-                                     "--size", "64x64", "--time", "100s", "--progress", "farm",
-                                     *arguments)
-        self.addCleanup(process.stderr.close)
-        self.addCleanup(process.stdout.close)
-        self.addCleanup(process.kill)
-        for _ in range(2):
-            self.assertIn("ALF_PROGRESS", process.stderr.readline())
-        return process
-
-    def check_partial_picture(self):
-        channels = self.exr("a.exr").channels()
-        count = channels["spp.Y"]
-        self.assertGreater(count.min(), 0)
-        self.assertEqual(count.min(), count.max())
-        self.assertGreater(channels["R"].mean(), 0)
-        self.assertEqual(self.exr("a.exr")["samplesPerPixel"], count[0, 0])
-
-    def check_first_signal(self, number):
-        process = self.start_and_wait()
-        process.send_signal(number)
-        rest = process.stderr.read()
-        self.assertEqual(process.wait(60), 4, rest)
-        self.assertIn("\nstopping after the pass in hand; a second signal ends at once\n", rest)
-        self.assertIn("stopped early: ", rest)
-        self.assertTrue(rest.endswith("wrote a.exr\n"))
-        self.check_partial_picture()
-
-    def test_interrupt_writes_a_valid_picture(self):
-        self.check_first_signal(signal.SIGINT)
-
-    def test_termination_writes_a_valid_picture(self):
-        self.check_first_signal(signal.SIGTERM)
-
-    @staticmethod
-    def catches(process, number):
-        with open(f"/proc/{process.pid}/status") as status:
-            caught = next(line.split()[1] for line in status if line.startswith("SigCgt:"))
-        return int(caught, 16) >> (number - 1) & 1
-
-    def test_quiet_says_nothing(self):
-        process = self.start_program("render", "fog.pbrt", "-o", "a.exr", "--spp", "100000000",
-                                     "--size", "64x64", "--time", "100s", "-q")
-        self.addCleanup(process.kill)
-        self.addCleanup(process.stderr.close)
-        self.addCleanup(process.stdout.close)
-        while process.poll() is None and not self.catches(process, signal.SIGINT):
-            time.sleep(0.01)
-        process.send_signal(signal.SIGINT)
-        out, err = process.communicate(timeout=60)
-        self.assertEqual((process.returncode, out, err), (4, "", ""))
-        self.check_partial_picture()
-
-    def test_second_signal_kills(self):
-        process = self.start_and_wait("--size", "3000x3000")
-        process.send_signal(signal.SIGINT)
-        while "stopping after" not in process.stderr.readline():
-            pass
-        process.send_signal(signal.SIGINT)
-        self.assertEqual(process.wait(60), -signal.SIGINT)
-        self.assertEqual(self.files(), ["fog.pbrt"])
-
-    def test_time_limit(self):
-        result = self.run_program("render", "fog.pbrt", "-o", "a.exr", "--spp", "100000000",
-                                  "--time", "0.5s", "--stats", "json")
-        self.assertEqual(result.returncode, 4, result.stderr)
-        self.check_partial_picture()
-        statistics = json.loads(result.stdout)
-        self.assertIs(statistics["stopped_early"], True)
-        self.assertLess(statistics["seconds"], 5)
-        self.assertEqual(statistics["samples_per_pixel_wanted"], 100000000)
-
-    def test_pass_beyond_the_time_limit_is_not_told_to_be_done(self):
-        result = self.run_program("render", "fog.pbrt", "-o", "a.exr", "--size", "600x600", "--time",
-                                  "0.01s", "--progress", "farm")
-        self.assertEqual(result.returncode, 4, result.stderr)
-        told = [line for line in result.stderr.splitlines() if line.startswith("ALF_PROGRESS")]
-        self.assertGreater(len(told), 1)
-        self.assertEqual(set(told[:-1]), {"ALF_PROGRESS 99%"})
-        self.assertEqual(told[-1], "ALF_PROGRESS 100%")
-
-    def test_time_limit_that_is_not_reached(self):
-        self.render("--time", "1h")
-
-
-class ProgressTest(ProgramTest):
-    def test_lines_where_there_is_no_terminal(self):
-        result = self.render("--spp", "400")
-        lines = [line for line in result.stderr.splitlines() if line.startswith("rendering: ")]
-        self.assertLessEqual(len(lines), 21)
-        self.assertRegex(lines[-1], r"^rendering: 100 %, 400 spp, .* s")
-        self.assertNotIn("\r", result.stderr)
-
-    def bar(self, **variables):
-        """What appears on a terminal of 80 columns."""
-        master, slave = os.openpty()
-        import fcntl
-        import termios
-        fcntl.ioctl(slave, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 80, 0, 0))
-        from program import environment
-        process = subprocess.Popen([PROGRAM, "render", "fog.pbrt", "--spp", "2000"],
-                                   cwd=self.folder, stderr=slave, env=environment(**variables))
-        os.close(slave)
-        text = b""
-        try:
-            while chunk := os.read(master, 65536):
-                text += chunk
-        except OSError:  # Linux reports the other side's end so
-            pass
-        os.close(master)
-        self.assertEqual(process.wait(60), 0)
-        return text.decode()
-
-    def test_bar_on_a_terminal(self):
-        text = self.bar()
-        self.assertIn("\rrendering [", text)
-        self.assertIn("ETA ", text)
-        self.assertIn("\033[36m#", text)
-
-    def test_no_color(self):
-        text = self.bar(NO_COLOR="1")
-        self.assertIn("\rrendering [#", text)
-        self.assertNotIn("\033[36m", text)
 
 
 if __name__ == "__main__":

@@ -122,6 +122,22 @@ TEST(LearnedSquaresTest, WithoutFindsNothingChanges) {
   EXPECT_EQ(squares.density(1, {0.5f, 0.5f}), 0.75f);
 }
 
+// Of each cell the moment and, once learned, two numbers; rows have tables of their own.
+TEST(LearnedSquaresTest, MemoryHasTheTablesOfRows) {
+  const std::array<float, 2> weights{1, 3};
+  LearnedSquares squares(weights, megabyte);
+  const auto rows =
+      static_cast<size_t>(squares.squares()) * static_cast<size_t>(squares.resolution());
+  const size_t cells = rows * static_cast<size_t>(squares.resolution());
+  const size_t before = squares.memory();
+  EXPECT_GE(before, cells * sizeof(int64_t));
+  learn(squares, 1000, 1);
+  EXPECT_GE(squares.memory() - before,
+            2 * cells * sizeof(float) + rows * sizeof(PiecewiseConstant1D));
+  EXPECT_LT(squares.memory() - before,
+            3 * cells * sizeof(float) + rows * sizeof(PiecewiseConstant1D));
+}
+
 TEST(LearnedSquaresTest, ManySquaresGetFewerCells) {
   const std::vector<float> weights(100'000, 1.0f);
   LearnedSquares squares(weights, 4 * megabyte);

@@ -101,6 +101,20 @@ TEST(FilmTest, AveragesGuidesWithoutWeights) {
   EXPECT_FLOAT_EQ(value(image, "depth.Z"), 15);  // of the two samples that hit something
 }
 
+TEST(FilmTest, PixelWithoutSamplesShowsOneNearby) {
+  Film film = film_of(3, 1);
+  film.add({1, 0}, {Rgb(1), Rgb(0.5f), {0, 0, 1}, 10}, 1);
+  film.add({1, 0}, {Rgb(3), Rgb(0.5f), {0, 0, 1}, 10}, 1);
+  film.add({2, 0}, {Rgb(7), Rgb(0.25f), {0, 1, 0}, 20}, 1);
+  EXPECT_EQ(film.unsampled(), 1);
+  const Image image = film.develop();
+  EXPECT_EQ(image.find("spp.Y")->values, (std::vector<float>{0, 2, 1}));
+  for (const Channel& channel : image.channels()) {
+    if (channel.name != "spp.Y") EXPECT_EQ(channel.values[0], channel.values[1]);
+  }
+  EXPECT_EQ(image.rgb(0, 0), Rgb(2));
+}
+
 TEST(FilmTest, CropKnowsItsPlace) {
   Film film({100, 50}, {10, 20}, {14, 22});
   film.add({13, 21}, sample_of(Rgb(5)), 1);

@@ -46,7 +46,7 @@ TEST_P(ChromaticTest, NoSampleIsAFirefly) {
   Rgb largest;
   uint32_t allowed = 0;
   for (uint32_t i = 0; i < 6000; ++i) {
-    if (i >= allowed) allowed = tracer->prepare(i);
+    if (i >= allowed) allowed = tracer->prepare(i, {});
     Sampler sampler(s.sampler, s.seed, {0, 0}, i);
     const Vec2 u = sampler.next_2d();
     const Rgb L =

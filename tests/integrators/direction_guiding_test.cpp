@@ -82,16 +82,16 @@ std::shared_ptr<const RecordCache> lies(const Scene& scene) {
 TEST(DirectionGuidingTest, ThePassInHandTeachesNothingYet) {
   const Scene scene(lamp_over_disk());
   const auto integrator = make_integrator(scene, order_two(8));
-  ASSERT_EQ(integrator->prepare(0), 1u);
+  ASSERT_EQ(integrator->prepare(0, {}), 1u);
   mean_of(scene, *integrator, 0, 1, 1);
-  ASSERT_EQ(integrator->prepare(1), 2u);
+  ASSERT_EQ(integrator->prepare(1, {}), 2u);
   const RunningMoments before = mean_of(scene, *integrator, 1, 1, 1);
   mean_of(scene, *integrator, 0, 20, 2);  // others, in the same pass
   const RunningMoments after = mean_of(scene, *integrator, 1, 1, 1);
   EXPECT_EQ(before.mean(), after.mean());
   EXPECT_EQ(before.variance(), after.variance());
   // They would have: the next pass is different.
-  integrator->prepare(2);
+  integrator->prepare(2, {});
   EXPECT_NE(mean_of(scene, *integrator, 1, 1, 1).mean(), before.mean());
 }
 
@@ -101,7 +101,7 @@ void expect_lies_cost_variance_only(const Scene& scene,
   const PathTracer honest(scene, render_settings, settings);
   settings.known_directions = lies(scene);
   PathTracer misled(scene, render_settings, settings);
-  EXPECT_EQ(misled.prepare(0), 1u);
+  EXPECT_EQ(misled.prepare(0, {}), 1u);
   RenderSettings plain = render_settings;
   plain.integrator = "volpath";
   const auto volpath = make_integrator(scene, plain);
@@ -172,10 +172,10 @@ void expect_no_bias(const Scene& scene, const ConnectionSettings& settings,
                     uint32_t count) {
   PathTracer guided(scene, order_two(1), settings);
   for (uint32_t first = 0, next = 0; first < 64; first = next) {
-    next = guided.prepare(first);
+    next = guided.prepare(first, {});
     mean_of(scene, guided, first, next - first, 1);
   }
-  guided.prepare(64);
+  guided.prepare(64, {});
   const RunningMoments learned = mean_of(scene, guided, 64, count, 2);
   const auto volpath = make_integrator(scene, order_two(1, "volpath"));
   const RunningMoments reference = mean_of(scene, *volpath, 0, 4000, 1);

@@ -8,6 +8,7 @@
 
 #include "scenes.h"
 #include "support/statistical_tests.h"
+#include "tyndall/integrators/particle_pass.h"
 #include "tyndall/integrators/particle_tracer.h"
 
 namespace tyndall {
@@ -40,13 +41,13 @@ Surface lamp_of(const std::string& kind) {
 
 // A lamp in a hollow of glass, or beside a ball of it, or over a mirror: fog all around, on
 // a diffuse floor.
-SceneDescription lit_through_glass(const Case& c) {
+SceneDescription lit_through_glass(const Case& c, Vec2i resolution = {size, size}) {
   SceneDescription d;
   PerspectiveCamera::Settings lens =
       test::camera({-0.3f, 0.2f, -1.1f}, {0.1f, 0, 0}, 75).settings();
   lens.lens_radius = c.lens_radius;
   lens.focal_distance = 1.2f;
-  d.camera = PerspectiveCamera(lens, {size, size});
+  d.camera = PerspectiveCamera(lens, resolution);
   d.media.push_back(medium_of(c.medium));
   d.surfaces.push_back(test::boundary_box(1.2f));
   Surface floor = test::diffuse_disk(0.9f, 3, 0.6f);
@@ -183,6 +184,53 @@ TEST(Particles, WhiteFurnaceStaysWhite) {
   for (const float value : image.find("G")->values) mean.add(double{value});
   EXPECT_GT(z_p_value(mean, 1), 0.01);
   EXPECT_LT(mean.standard_error(), 0.02);
+}
+
+// What the particles of a first sample bring to the picture in so many seconds.
+double first_splats(const Scene& scene, uint64_t seed, double seconds) {
+  RenderSettings s = test::settings("volpath", 7);
+  s.resolution = s.crop_max = {300, 300};
+  s.seed = seed;
+  ParticleTracer tracer(scene, s, {.max_depth = 7, .orders = {}, .is_chromatic = false});
+  const Filter filter(s.filter);
+  ParticlePass pass(filter, s);
+  Film film(s.resolution, s.crop_min, s.crop_max);
+  pass.run(tracer, 0, film, Deadline::in(seconds));
+  double sum = 0;
+  for (int i = 0; i < 300 * 300; ++i) sum += film.estimate({i % 300, i / 300}).mean[1];
+  return sum;
+}
+
+// As many particles as there is time for stand for all.
+TEST(Particles, ThoseBeforeTheDeadlineStandForAll) {
+  const Scene scene(lit_through_glass({"sphere", "fog", "hollow"}, {300, 300}));
+  RunningMoments all, some;
+  for (uint64_t seed = 0; seed < 8; ++seed) all.add(first_splats(scene, seed, 1e6));
+  for (uint64_t seed = 100; seed < 150; ++seed) some.add(first_splats(scene, seed, 0.004));
+  const double error = std::hypot(all.standard_error(), some.standard_error());
+  EXPECT_GT(z_p_value(some.mean(), error, all.mean()), 0.01);
+  EXPECT_LT(error, 0.05 * all.mean());
+}
+
+// Those of later samples are dropped instead.
+TEST(Particles, ThoseOfLaterSamplesAreAllOrNone) {
+  const Scene scene(lit_through_glass({"sphere", "fog", "hollow"}, {300, 300}));
+  RenderSettings s = test::settings("volpath", 7);
+  s.resolution = s.crop_max = {300, 300};
+  const ParticleTracer tracer(scene, s,
+                              {.max_depth = 7, .orders = {}, .is_chromatic = false});
+  const Filter filter(s.filter);
+  ParticlePass pass(filter, s);
+  Film film(s.resolution, s.crop_min, s.crop_max), same(film);
+  pass.run(tracer, 0, film, {});
+  const Image before = film.develop();
+  pass.run(tracer, 1, film, Deadline::in(0.002));
+  EXPECT_EQ(before.find("G")->values, film.develop().find("G")->values);
+  // Nor do they count to what comes after.
+  pass.run(tracer, 1, film, {});
+  pass.run(tracer, 0, same, {});
+  pass.run(tracer, 1, same, {});
+  EXPECT_EQ(same.develop().find("G")->values, film.develop().find("G")->values);
 }
 
 Image picture_of_30(const std::string& integrator, int threads, uint32_t spp) {

@@ -130,18 +130,6 @@ TEST(Render, StopsAfterThePassInHand) {
             static_cast<float>(result.statistics.samples_per_pixel));
 }
 
-TEST(Render, KeepsItsTimeLimit) {
-  const Scene scene(foggy_scene());
-  RenderSettings s = foggy_settings("volpath");
-  s.samples_per_pixel = 100'000'000;
-  RenderOptions options;
-  options.time_limit = 0.5;
-  const RenderResult result = render(scene, s, options);
-  EXPECT_TRUE(result.statistics.stopped_early);
-  EXPECT_GE(result.statistics.seconds, 0.5);
-  EXPECT_LT(result.statistics.seconds, 1.5);
-}
-
 TEST(Render, ReportsProgressThatGrows) {
   const Scene scene(foggy_scene());
   RenderSettings s = foggy_settings("volpath");

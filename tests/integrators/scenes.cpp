@@ -76,7 +76,7 @@ RunningMoments estimate(Integrator& integrator, const RenderSettings& settings, 
   RunningMoments moments;
   uint32_t allowed = 0;
   for (uint32_t i = 0; i < static_cast<uint32_t>(count); ++i) {
-    if (i >= allowed) allowed = integrator.prepare(i);
+    if (i >= allowed) allowed = integrator.prepare(i, {});
     Sampler sampler(settings.sampler, settings.seed, {0, 0}, i);
     const Ray ray = make_ray(sampler);
     moments.add(double{integrator.Li(ray, sampler).L.r});

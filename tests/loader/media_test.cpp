@@ -118,7 +118,8 @@ std::vector<std::string> warnings_of(const std::string& parameters) {
 TEST(LoadUniformGridTest, WarnsOfWhatCountsAsZero) {
   using Messages = std::vector<std::string>;
   const std::string large =
-      "MakeNamedMedium \"m\": \"density\" holds values above 1e+30, which count as zero";
+      "MakeNamedMedium \"m\": the density grid holds values that are no numbers or above "
+      "1e+30, which count as zero";
   const std::string empty =
       "MakeNamedMedium \"m\": the density is zero everywhere: an empty medium";
   EXPECT_EQ(warnings_of("\"uniformgrid\" \"integer nx\" 2 \"float density\" [1 3e38]"),

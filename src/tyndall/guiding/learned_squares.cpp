@@ -153,7 +153,10 @@ void LearnedSquares::distribute(std::span<std::vector<float>> values,
 }
 
 size_t LearnedSquares::memory() const {
-  return cells() * (sizeof(int64_t) + (learned_.empty() ? 0 : 2 * sizeof(float)));
+  size_t bytes =
+      (cells() + 1) * sizeof(int64_t) + (base_.size() + chosen_.size()) * sizeof(float);
+  for (const PiecewiseConstant2D& square : learned_) bytes += square.memory();
+  return bytes;
 }
 
 }  // namespace tyndall

@@ -30,7 +30,7 @@ class LearnedSquares {
  public:
   /// One square per weight: the choice between squares before anything is learned, uniform
   /// on each. Weights as DiscreteDistribution takes them. With more squares, cells get
-  /// larger, so that all take at most `max_bytes`; at the least one cell a square.
+  /// larger, so that those of all take at most `max_bytes`; at the least one cell a square.
   LearnedSquares(std::span<const float> weights, size_t max_bytes);
 
   SquaresSample sample(float u_index, Vec2 u) const;

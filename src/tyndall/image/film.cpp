@@ -7,6 +7,7 @@
 #include <limits>
 #include <string>
 
+#include "tyndall/image/known_pixels.h"
 #include "tyndall/math/parallel_for.h"
 
 namespace tyndall {
@@ -132,22 +133,38 @@ Image Film::develop() const {
   Image image(width(), height());
   image.offset = crop_min_;
   image.full_size = full_size_;
-  fill(image, "", "RGB", [&](size_t i, int c) { return to_float(mean(i, c)); });
-  fill(image, "variance", "RGB", [&](size_t i, int c) { return to_float(variance(i, c)); });
-  const auto per_sample = [&](size_t i) {
-    return 1 / static_cast<float>(std::max(pixels_[i].count, 1u));
+  const std::vector<size_t> sampled = sampled_pixels();
+  const auto shown = [&](size_t i) { return sampled.empty() ? i : sampled[i]; };
+  const auto mean_of = [](float sum, uint32_t count) {
+    return sum * (1 / static_cast<float>(std::max(count, 1u)));
   };
-  fill(image, "albedo", "RGB",
-       [&](size_t i, int c) { return pixels_[i].albedo[c] * per_sample(i); });
-  fill(image, "normal", "XYZ",
-       [&](size_t i, int c) { return pixels_[i].normal[c] * per_sample(i); });
+  fill(image, "", "RGB", [&](size_t i, int c) { return to_float(mean(shown(i), c)); });
+  fill(image, "variance", "RGB",
+       [&](size_t i, int c) { return to_float(variance(shown(i), c)); });
+  fill(image, "albedo", "RGB", [&](size_t i, int c) {
+    const Pixel& pixel = pixels_[shown(i)];
+    return mean_of(pixel.albedo[c], pixel.count);
+  });
+  fill(image, "normal", "XYZ", [&](size_t i, int c) {
+    const Pixel& pixel = pixels_[shown(i)];
+    return mean_of(pixel.normal[c], pixel.count);
+  });
   fill(image, "depth", "Z", [&](size_t i, int) {
-    return pixels_[i].depth / static_cast<float>(std::max(pixels_[i].depth_count, 1u));
+    const Pixel& pixel = pixels_[shown(i)];
+    return pixel.depth / static_cast<float>(std::max(pixel.depth_count, 1u));
   });
   fill(image, "spp", "Y",
        [&](size_t i, int) { return static_cast<float>(pixels_[i].count); });
   return image;
 }
+
+// Empty if all are.
+std::vector<size_t> Film::sampled_pixels() const {
+  if (unsampled() == 0) return {};
+  return known_pixels({width(), height()}, [&](size_t i) { return pixels_[i].count > 0; });
+}
+
+int64_t Film::unsampled() const { return std::ranges::count(pixels_, 0u, &Pixel::count); }
 
 RejectedSamples Film::rejected() const {
   RejectedSamples sum;

@@ -59,9 +59,12 @@ class Film {
 
   /// R,G,B; variance.R,G,B (of the pixel's mean, as if its samples were independent; zero
   /// below two samples); albedo.R,G,B; normal.X,Y,Z (averages, not unit); depth.Z (average
-  /// over the samples that hit something); spp.Y.
+  /// over the samples that hit something); spp.Y. A pixel without samples shows what a
+  /// sampled one nearby has, but for its spp.Y, which is zero; without any it is black.
   Image develop() const;
   RejectedSamples rejected() const;
+  /// Pixels without samples.
+  int64_t unsampled() const;
 
  private:
   // Double, because a float mean stops moving after some ten thousand samples.
@@ -82,6 +85,7 @@ class Film {
   double variance(size_t pixel, int channel) const;
   static bool accept(Pixel& pixel, Rgb L);
   static void add_guides(Pixel& pixel, const PathSample& sample);
+  std::vector<size_t> sampled_pixels() const;
   Pixel& at(Vec2i pixel) { return pixels_[index(pixel)]; }
   size_t index(Vec2i pixel) const;
   int width() const { return crop_max_.x - crop_min_.x; }

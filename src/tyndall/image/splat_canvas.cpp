@@ -68,7 +68,9 @@ void SplatCanvas::add_to_rows(const Splat& splat, int first_row, int end_row) {
 void SplatCanvas::give(Film& film, double scale) {
   for (double& sum : sums_) sum *= scale;
   film.add_splats(sums_);
-  std::ranges::fill(sums_, 0.0);
+  clear();
 }
+
+void SplatCanvas::clear() { std::ranges::fill(sums_, 0.0); }
 
 }  // namespace tyndall

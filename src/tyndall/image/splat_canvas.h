@@ -32,6 +32,7 @@ class SplatCanvas {
   const Filter& filter() const { return *filter_; }
   /// Gives the sums, times `scale`, to the film as those of one sample, and starts anew.
   void give(Film& film, double scale);
+  void clear();
 
  private:
   void add_to_rows(const Splat& splat, int first_row, int end_row);

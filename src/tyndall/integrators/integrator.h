@@ -7,6 +7,7 @@
 
 #include "tyndall/guiding/guiding_file.h"
 #include "tyndall/image/film.h"
+#include "tyndall/integrators/deadline.h"
 #include "tyndall/integrators/render.h"
 #include "tyndall/sampling/sampler.h"
 
@@ -28,8 +29,11 @@ class Integrator {
   /// Called between passes, before sample `first` of each pixel, on no other thread's time.
   /// An integrator that learns does so here. Returns up to which sample it may go on before
   /// it wants to be called again; a function of `first` alone, so that time limits change
-  /// nothing.
-  virtual uint32_t prepare(uint32_t /*first*/) { return unlimited; }
+  /// nothing. May leave its work when the deadline passes: unless `first` is 0, there are
+  /// no samples after it.
+  virtual uint32_t prepare(uint32_t /*first*/, const Deadline& /*deadline*/) {
+    return unlimited;
+  }
 
   /// Particles out of lights that find what Li() leaves to them; null if there are none.
   /// Those of as many samples as Li() is asked for are to be traced.

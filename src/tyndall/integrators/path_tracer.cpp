@@ -9,6 +9,7 @@
 
 #include "tyndall/integrators/pilot_points.h"
 #include "tyndall/integrators/useful_connections.h"
+#include "tyndall/math/parallel_for.h"
 
 namespace tyndall {
 namespace {
@@ -20,7 +21,7 @@ constexpr uint32_t last_update = 64;
 // At this update, or at the second if directions or lit surfaces are learned, paths without
 // connections are traced, to compare with.
 constexpr uint32_t trial_update = 4, trial_update_of_learned = 16;
-constexpr uint32_t trial_paths = 1 << 17;
+constexpr uint32_t trial_paths = 1 << 17, trial_batch = 1 << 8;
 // What connections cost over what their rays cost: techniques are built for them, and bins
 // filled where it is predicted what lights see. Measured on the archetype scenes.
 constexpr double overhead = 1.2, overhead_of_visibility = 2.3;
@@ -104,8 +105,8 @@ void PathTracer::learn_worth() {
 
 // Camera rays through all of the picture, apart from those of the pixels.
 template <typename Trace>
-void PathTracer::for_pilot_rays(uint32_t count, const Trace& trace) const {
-  for (uint32_t i = 0; i < count; ++i) {
+void PathTracer::for_pilot_rays(PilotRays rays, const Trace& trace) const {
+  for (uint32_t i = rays.first; i < rays.end; ++i) {
     Sampler sampler(SamplerKind::sobol, seed_, {-1, -1}, i);
     const Vec2 u = sampler.next_2d();
     const Vec2 p_film{u.x * static_cast<float>(resolution_.x),
@@ -118,7 +119,7 @@ void PathTracer::for_pilot_rays(uint32_t count, const Trace& trace) const {
 // The mean luminance of a few paths.
 float PathTracer::pilot_radiance() const {
   double sum = 0;
-  for_pilot_rays(pilot_paths, [&](const Ray& ray, Sampler& sampler, Vec2i) {
+  for_pilot_rays({0, pilot_paths}, [&](const Ray& ray, Sampler& sampler, Vec2i) {
     const float found = luminance(Li(ray, sampler).L);
     if (std::isfinite(found)) sum += double{found};
   });
@@ -132,7 +133,7 @@ void PathTracer::pretrain(DirectionGuiding& guiding) const {
   rules.worth = nullptr;
   rules.sees_through = true;
   guiding.start_pretraining();
-  for_pilot_rays(pretraining_paths, [&](const Ray& ray, Sampler& sampler, Vec2i) {
+  for_pilot_rays({0, pretraining_paths}, [&](const Ray& ray, Sampler& sampler, Vec2i) {
     Path path(scene_, rules, ray, sampler);
     do {
       Leg leg(scene_, path.ray(), path.medium());
@@ -143,13 +144,13 @@ void PathTracer::pretrain(DirectionGuiding& guiding) const {
   guiding.finish_pretraining();
 }
 
-uint32_t PathTracer::prepare(uint32_t first) {
+uint32_t PathTracer::prepare(uint32_t first, const Deadline& deadline) {
   if (!budget_) return unlimited;
   if (first > 0 && budget_->is_recording()) {
     const bool learns = connections_->guiding() || connections_->lit_surfaces();
     if (!was_tried_ && first >= (learns ? trial_update_of_learned : trial_update)) {
       was_tried_ = true;
-      record_plain_paths();
+      record_plain_paths(deadline);
     }
     update();
   }
@@ -180,11 +181,16 @@ void PathTracer::give_up_connections() {
   plain_rules_.worth = &*worth_;
 }
 
-void PathTracer::record_plain_paths() const {
-  for_pilot_rays(trial_paths, [&](const Ray& ray, Sampler& sampler, Vec2i pixel) {
+void PathTracer::record_plain_paths(const Deadline& deadline) const {
+  const auto record = [&](const Ray& ray, Sampler& sampler, Vec2i pixel) {
     const Traced path = trace(plain_rules_, ray, sampler);
     budget_->record_plain_path(budget_->region(pixel),
                                {.value = luminance(path.sample.L), .legs = path.legs});
+  };
+  parallel_for(trial_paths / trial_batch, [&](size_t i) {
+    if (deadline.has_passed()) return;
+    const auto first = static_cast<uint32_t>(i) * trial_batch;
+    for_pilot_rays({first, first + trial_batch}, record);
   });
 }
 

@@ -16,7 +16,7 @@ class PathTracer : public Integrator {
              const ConnectionSettings& connections);
 
   PathSample Li(const Ray& ray, Sampler& sampler) const override;
-  uint32_t prepare(uint32_t first) override;
+  uint32_t prepare(uint32_t first, const Deadline& deadline) override;
   ParticleTracer* particles() override { return particles_ ? &*particles_ : nullptr; }
   void report(RenderStatistics& statistics) const override;
   bool learns() const override { return learns_; }
@@ -24,8 +24,11 @@ class PathTracer : public Integrator {
 
  private:
   const Scene& scene_;
+  struct PilotRays {
+    uint32_t first, end;
+  };
   template <typename Trace>
-  void for_pilot_rays(uint32_t count, const Trace& trace) const;
+  void for_pilot_rays(PilotRays rays, const Trace& trace) const;
   struct Traced {
     PathSample sample;
     int legs;
@@ -33,7 +36,7 @@ class PathTracer : public Integrator {
   Traced trace(const PathRules& rules, const Ray& ray, Sampler& sampler) const;
   float pilot_radiance() const;
   void pretrain(DirectionGuiding& guiding) const;
-  void record_plain_paths() const;
+  void record_plain_paths(const Deadline& deadline) const;
   void add_particles(const RenderSettings& settings);
   void learn_worth();
   void update();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tyndall/integrators/render.h"
 
+#include <fmt/format.h>
 #include <sys/resource.h>
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
@@ -12,16 +13,23 @@
 
 #include "tyndall/integrators/integrator.h"
 #include "tyndall/integrators/particle_pass.h"
+#include "tyndall/integrators/pixel_lattice.h"
 #include "tyndall/math/parallel_for.h"
 
 namespace tyndall {
 namespace {
 
-constexpr int tile_size = 8;
 constexpr double progress_interval = 0.1;  // [s]
 // A pass is the least that a stopped render finishes: keep it short.
 constexpr double target_pass_seconds = 1.0;
 constexpr uint32_t max_pass_growth = 2;
+// A pass may take so many times as long as the one before lets expect.
+constexpr double pass_tolerance = 1.25;
+// What samples and particles of the first pass get each, or a share of it, even if
+// preparation took all of the time.
+constexpr double least_first_seconds = 0.25;
+// The share of the time for the first pass that particles may take.
+constexpr double first_particles_share = 0.25;
 
 class Stopwatch {
  public:
@@ -79,8 +87,9 @@ class RenderJob {
     statistics_.seconds = clock_.seconds();
     statistics_.cpu_seconds = process_cpu_seconds() - cpu_start_;
     statistics_.samples_per_pixel = done_;
-    statistics_.paths = static_cast<int64_t>(done_) * pixel_count();
+    statistics_.paths = paths_;
     statistics_.rejected = film_.rejected();
+    report_unsampled();
     statistics_.counters["camera.media"] =
         static_cast<double>(scene_.camera_media().size());
     integrator_->report(statistics_);
@@ -107,6 +116,16 @@ class RenderJob {
     return bytes.bytes();
   }
 
+  void report_unsampled() {
+    const int64_t count = statistics_.unsampled_pixels = film_.unsampled();
+    if (count == 0) return;
+    const double share = static_cast<double>(count) / static_cast<double>(pixel_count());
+    statistics_.notes.push_back(fmt::format(
+        "the time limit was too short for a sample of each pixel: {} of {} ({:.1f} %) show "
+        "what a pixel nearby found",
+        count, pixel_count(), 100 * share));
+  }
+
   int64_t pixel_count() const {
     const Vec2i size = settings_.crop_max - settings_.crop_min;
     return static_cast<int64_t>(size.x) * size.y;
@@ -121,14 +140,17 @@ class RenderJob {
       }
       if (done_ >= allowed) {
         const double before = clock_.seconds();
-        allowed = integrator_->prepare(done_);
+        allowed = integrator_->prepare(done_, deadline_);
         statistics_.training_seconds += clock_.seconds() - before;
       }
       uint32_t end = allowed;
       if (ParticleTracer* particles = integrator_->particles())
-        end = std::min(end, particle_pass_.prepare(*particles, done_, film_));
+        end = std::min(end, particle_pass_.prepare(*particles, done_, film_, deadline_));
       const uint32_t count = std::min(next_pass_size(), end - done_);
-      render_pass({done_, count});
+      if (!render_pass({done_, count})) {
+        statistics_.stopped_early = true;
+        return;
+      }
       done_ += count;
       if (options_.on_pass) options_.on_pass(film_, done_);
     }
@@ -136,7 +158,7 @@ class RenderJob {
 
   bool must_stop() const {
     if (options_.stop && options_.stop->load(std::memory_order_relaxed)) return true;
-    return options_.time_limit && clock_.seconds() >= *options_.time_limit;
+    return deadline_.has_passed();
   }
 
   // Sizes depend on the clock, images do not: a pixel's samples are the same however they
@@ -144,40 +166,61 @@ class RenderJob {
   uint32_t next_pass_size() {
     const uint32_t left = settings_.samples_per_pixel - done_;
     if (done_ == 0) return 1;
-    double seconds = target_pass_seconds;
-    if (options_.time_limit)
-      seconds = std::min(seconds, *options_.time_limit - clock_.seconds());
+    const double seconds = std::min(target_pass_seconds, deadline_.seconds_left());
     const double fitting = std::max(1.0, seconds / seconds_per_sample_);
     const uint32_t limit = std::min(max_pass_growth * last_pass_, left);
     last_pass_ = fitting < limit ? static_cast<uint32_t>(fitting) : limit;
     return last_pass_;
   }
 
-  void render_pass(Pass pass) {
+  // Whether it was finished before the deadline.
+  bool render_pass(Pass pass) {
     const double start = clock_.seconds();
-    finished_pixels_ = 0;
-    const Vec2i size = settings_.crop_max - settings_.crop_min;
-    const int columns = (size.x + tile_size - 1) / tile_size,
-              rows = (size.y + tile_size - 1) / tile_size;
-    parallel_for(static_cast<size_t>(columns) * static_cast<size_t>(rows), [&](size_t i) {
-      const auto tile = static_cast<int>(i);
-      render_tile({tile % columns, tile / columns}, pass);
-    });
-    if (ParticleTracer* particles = integrator_->particles())
-      for (uint32_t i = pass.first; i < pass.first + pass.count; ++i)
-        particle_pass_.run(*particles, i, film_);
+    const bool is_first = pass.first == 0;
+    // Those of the first sample must not be missing, and so come first.
+    if (is_first) run_particles(pass, in_share(first_deadline(), first_particles_share));
+    if (!render_pixels(pass, is_first ? first_deadline() : deadline_)) return false;
+    if (!is_first) run_particles(pass, deadline_);
     seconds_per_sample_ = std::max((clock_.seconds() - start) / pass.count, 1e-9);
+    return true;
   }
 
-  void render_tile(Vec2i tile, Pass pass) {
-    const Vec2i first = settings_.crop_min + Vec2i{tile.x * tile_size, tile.y * tile_size};
-    const Vec2i last{std::min(first.x + tile_size, settings_.crop_max.x),
-                     std::min(first.y + tile_size, settings_.crop_max.y)};
-    for (int y = first.y; y < last.y; ++y)
-      for (int x = first.x; x < last.x; ++x)
-        for (uint32_t i = pass.first; i < pass.first + pass.count; ++i)
-          render_sample({x, y}, i);
-    const int64_t pixels = int64_t{last.x - first.x} * (last.y - first.y);
+  Deadline first_deadline() const { return deadline_.at_least(least_first_seconds); }
+
+  static Deadline in_share(const Deadline& deadline, double share) {
+    return deadline.is_set() ? Deadline::in(share * deadline.seconds_left()) : Deadline();
+  }
+
+  void run_particles(Pass pass, const Deadline& deadline) {
+    if (const ParticleTracer* particles = integrator_->particles())
+      for (uint32_t i = pass.first; i < pass.first + pass.count; ++i)
+        particle_pass_.run(*particles, i, film_, deadline);
+  }
+
+  // Whether each pixel was. Which ones were does not depend on what they found.
+  bool render_pixels(Pass pass, const Deadline& deadline) {
+    finished_pixels_ = 0;
+    for (const PixelLattice& lattice : pixel_order(pass))
+      parallel_for(lattice.tiles(), [&](size_t tile) {
+        if (!deadline.has_passed()) render_tile(lattice, tile, pass);
+      });
+    return finished_pixels_ == pixel_count();
+  }
+
+  std::vector<PixelLattice> pixel_order(Pass pass) const {
+    const double expected = pass_tolerance * pass.count * seconds_per_sample_;
+    const bool may_be_cut =
+        deadline_.is_set() && (pass.first == 0 || expected > deadline_.seconds_left());
+    return may_be_cut ? pixels_from_coarse_to_fine(settings_.crop_min, settings_.crop_max)
+                      : all_pixels(settings_.crop_min, settings_.crop_max);
+  }
+
+  void render_tile(const PixelLattice& lattice, size_t tile, Pass pass) {
+    const int64_t pixels = lattice.for_pixels(tile, [&](Vec2i pixel) {
+      for (uint32_t i = pass.first; i < pass.first + pass.count; ++i)
+        render_sample(pixel, i);
+    });
+    paths_ += pixels * pass.count;
     tell_progress(pass, finished_pixels_ += pixels);
   }
 
@@ -204,8 +247,7 @@ class RenderJob {
     report_progress(pass.first + of_pass * pass.count, pass.first);
   }
 
-  // `samples` count the begun ones too. A pass may go on beyond the time limit: what is not
-  // finished is never told to be.
+  // `samples` count the begun ones too. What is not finished is never told to be.
   void report_progress(double samples, uint32_t finished) {
     const double now = last_progress_ = clock_.seconds();
     double fraction = samples / settings_.samples_per_pixel;
@@ -224,6 +266,8 @@ class RenderJob {
   const RenderOptions& options_;
   // Both clocks run while the integrator is made: it traces what its lights see.
   Stopwatch clock_;
+  Deadline deadline_ =
+      options_.time_limit ? Deadline::in(*options_.time_limit) : Deadline();
   double cpu_start_ = process_cpu_seconds();
   std::unique_ptr<Integrator> integrator_;
   Filter filter_;
@@ -232,7 +276,7 @@ class RenderJob {
   RenderStatistics statistics_;
   uint32_t done_ = 0, last_pass_ = 1;
   double seconds_per_sample_ = 0;
-  std::atomic<int64_t> finished_pixels_ = 0;
+  std::atomic<int64_t> finished_pixels_ = 0, paths_ = 0;
   std::mutex progress_mutex_;
   double last_progress_ = 0;
 };

@@ -27,8 +27,12 @@ struct RenderProgress {
 
 /// How a render is run, as opposed to what is rendered.
 struct RenderOptions {
-  int threads = 0;                   ///< zero: all that the process may use
-  std::optional<double> time_limit;  ///< [s]; the pass in hand is finished
+  int threads = 0;  ///< zero: all that the process may use
+  /// [s], of preparation and passes. It ends a pass in hand, of which only what is finished
+  /// is kept: pixels differ by a pass in their numbers of samples, and are each divided by
+  /// their own. If it is too short for a sample of each pixel, those of the first pass are
+  /// spread over the picture, see Film::develop().
+  std::optional<double> time_limit;
   /// Set to true from anywhere, a signal handler too, to stop after the pass in hand.
   const std::atomic<bool>* stop = nullptr;
   /// Called from one thread at a time, at most about ten times a second, and at the end.
@@ -36,16 +40,17 @@ struct RenderOptions {
   /// Hand back what the integrator has learned, in the format of GuidingFileWriter.
   /// render() throws std::invalid_argument if it learns nothing in any scene.
   bool dump_guiding = false;
-  /// Called after each pass with the film so far and its samples per pixel, for
-  /// checkpoints.
+  /// Called after each pass that was finished, with the film so far and its samples per
+  /// pixel, for checkpoints.
   std::function<void(const Film&, uint32_t samples)> on_pass;
 };
 
 struct RenderStatistics {
   double seconds = 0;  ///< wall time in the passes, training included
   double training_seconds = 0;
-  double cpu_seconds = 0;  ///< of the process during the render
-  uint32_t samples_per_pixel = 0;
+  double cpu_seconds = 0;          ///< of the process during the render
+  uint32_t samples_per_pixel = 0;  ///< that each pixel has at least
+  int64_t unsampled_pixels = 0;
   int64_t paths = 0;
   int threads = 0;
   bool stopped_early = false;  ///< by time limit or `stop`

@@ -63,8 +63,7 @@ TailDensities tail_densities(const ConnectionContext& context, const TailCounts&
     return densities;
   }
   const float last = leg.single(end.light)->pdf_t(t) * end.pdf;
-  const float reached =
-      counts.vertices == 2 && !x.is_in_medium ? counts.probability_of_first : 1;
+  const float reached = counts.probability_of_reaching(1, !x.is_in_medium);
   densities.direct = 0;
   const float dual = dual_density(context, before, x, leg, end.light);
   if (!(dual > 0)) {
@@ -99,12 +98,11 @@ TailDensities surface_tail_densities(const ConnectionContext& context,
   const std::array<float, max_lit_surfaces> first = context.lit_surfaces()->densities(
       places, end.light, p, end.to_light, end.distance, cos_light);
   for (int i = 0; i < chain.size; ++i) densities.lit[i] *= first[i];
-  const bool is_from_first = counts.vertices == chain.size + 1 && !chain.is_seen_from_leg;
-  if (!is_from_first) return densities;
-  // All others walk on from there.
-  densities.direct *= counts.probability_of_first;
-  densities.hit *= counts.probability_of_first;
-  for (int i = 0; i < chain.size - 1; ++i) densities.lit[i] *= counts.probability_of_first;
+  // All but the connection from the first vertex walk on from there.
+  const float reached = counts.probability_of_reaching(chain.size, !chain.is_seen_from_leg);
+  densities.direct *= reached;
+  densities.hit *= reached;
+  for (int i = 0; i < chain.size - 1; ++i) densities.lit[i] *= reached;
   return densities;
 }
 

@@ -56,6 +56,11 @@ struct TailCounts {
   /// it; connections from there are made for certain.
   float probability_of_first = 1;
 
+  /// With which a walk reaches the vertex before the last `added` ones, which is one on a
+  /// surface or in a medium: certain, but for the surface that the camera sees.
+  float probability_of_reaching(int added, bool is_on_surface) const {
+    return vertices == added + 1 && is_on_surface ? probability_of_first : 1;
+  }
   /// Of those that add the last `added` vertices. Those left to chance count as one: were
   /// their shares as small as their chances, what walks find near lamps would vary more.
   float operator()(Effort effort, int added) const {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "tyndall/integrators/leg.h"
 #include "tyndall/integrators/lit_surface.h"
 #include "tyndall/integrators/pilot_points.h"
 #include "tyndall/sampling/random.h"
@@ -23,7 +24,9 @@ constexpr size_t max_probes = 4096;
 
 bool is_hidden(const Scene& scene, Vec3 p, const Light& light, Vec2 u) {
   const std::optional<LightSample> sample = light.sample(p, u);
-  return sample && scene.is_occluded({p, sample->wi}, sample->distance * 0.9999f);
+  if (!sample) return false;
+  const float t_max = sample->distance * (1 - shadow_shortening) - sample->rounded_end;
+  return scene.is_occluded({p, sample->wi}, t_max);
 }
 
 // The share of the light that surfaces hide from where it matters for the picture; empty if

@@ -29,25 +29,12 @@ auto read_or_report(const ParameterSet& parameters, F&& read)
   return std::nullopt;
 }
 
-// Says what of a grid has no meaning.
-void report_rejected(const ParameterSet& parameters, const PlacedGrid& placed,
-                     std::string_view what) {
-  const BrickGrid::Rejected rejected = placed.grid->rejected();
-  if (rejected.negative == 0 && rejected.not_finite == 0) return;
-  const char* kind = rejected.not_finite == 0 ? "negative"
-                     : rejected.negative == 0 ? "infinite or not-a-number"
-                                              : "negative, infinite or not-a-number";
-  parameters.warning("filename", fmt::format("the {} grid holds {} values, which count as "
-                                             "zero",
-                                             what, kind));
-}
-
 std::optional<PlacedGrid> read_density(ParameterSet& parameters, const std::string& path) {
   const std::string name = parameters.string("gridname", "density");
   const std::string_view names[] = {name};
   auto placed = read_or_report(parameters, [&] { return read_volume(path, names); });
   if (!placed) return std::nullopt;
-  report_rejected(parameters, *placed, "density");
+  warn_of_rejected(parameters, "filename", "density", placed->grid->rejected());
   if (placed->is_from_level_set)
     parameters.warning(
         "filename",
@@ -80,7 +67,7 @@ GridEmission read_emission(ParameterSet& parameters, const std::string& path) {
                      "either \"Le\" or a temperature says how the medium glows");
     return {};
   }
-  report_rejected(parameters, *temperature, "temperature");
+  warn_of_rejected(parameters, "filename", "temperature", temperature->grid->rejected());
   const float hottest = (temperature->grid->maximum() - kelvin.offset) * kelvin.scale;
   if (hottest > coldest_glow)
     return {.scale = {},

@@ -23,16 +23,6 @@ std::optional<MediumPreset> read_preset(ParameterSet& parameters) {
   return preset;
 }
 
-void warn_of_large_values(const ParameterSet& parameters, std::string_view name,
-                          const std::vector<float>& values) {
-  constexpr float largest = BrickGrid::largest;
-  if (std::none_of(values.begin(), values.end(), [](float x) { return x > largest; }))
-    return;
-  parameters.warning(
-      name,
-      fmt::format("\"{}\" holds values above {:g}, which count as zero", name, largest));
-}
-
 }  // namespace
 
 MediumProperties read_properties(const MediumContext& in, const MediumPreset& otherwise) {
@@ -95,8 +85,22 @@ std::optional<DensityGrid> read_grid(ParameterSet& parameters, std::string_view 
                                        bad - values.begin(), name, *bad));
     return std::nullopt;
   }
-  warn_of_large_values(parameters, name, values);
+  const auto large = std::count_if(values.begin(), values.end(),
+                                   [](float x) { return x > BrickGrid::largest; });
+  warn_of_rejected(parameters, name, name, {.not_finite = static_cast<uint64_t>(large)});
   return DensityGrid{n, std::move(values)};
+}
+
+void warn_of_rejected(const ParameterSet& parameters, std::string_view name,
+                      std::string_view what, const BrickGrid::Rejected& rejected) {
+  if (rejected.negative == 0 && rejected.not_finite == 0) return;
+  const std::string large = fmt::format("no numbers or above {:g}", BrickGrid::largest);
+  const std::string kind = rejected.not_finite == 0 ? "negative"
+                           : rejected.negative == 0 ? large
+                                                    : "negative, " + large;
+  parameters.warning(
+      name,
+      fmt::format("the {} grid holds values that are {}, which count as zero", what, kind));
 }
 
 void warn_if_empty(const ParameterSet& parameters, std::string_view name,

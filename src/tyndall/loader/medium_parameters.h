@@ -41,6 +41,10 @@ Bounds3 read_box(ParameterSet& parameters);
 std::optional<DensityGrid> read_grid(ParameterSet& parameters, std::string_view name,
                                      Vec3i resolution);
 
+/// Reports numbers of the grid of `what` that count as zero.
+void warn_of_rejected(const ParameterSet& parameters, std::string_view name,
+                      std::string_view what, const BrickGrid::Rejected& rejected);
+
 /// Reports a density that is zero everywhere.
 void warn_if_empty(const ParameterSet& parameters, std::string_view name,
                    const PlacedGrid& density);

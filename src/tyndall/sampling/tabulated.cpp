@@ -114,6 +114,12 @@ PiecewiseConstant2D::PiecewiseConstant2D(std::span<const float> values, int widt
   marginal_ = PiecewiseConstant1D(integrals);
 }
 
+size_t PiecewiseConstant2D::memory() const {
+  size_t bytes = sizeof(*this) - sizeof(marginal_) + marginal_.memory();
+  for (const PiecewiseConstant1D& row : rows_) bytes += row.memory();
+  return bytes;
+}
+
 PiecewiseSample2D PiecewiseConstant2D::sample(Vec2 u) const {
   const PiecewiseSample y = marginal_.sample(u.y);
   const PiecewiseSample x = rows_[find_bin(y.x, rows_.size())].sample(u.x);

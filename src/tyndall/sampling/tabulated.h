@@ -50,6 +50,10 @@ class PiecewiseConstant1D {
   float pdf(float x) const;                     ///< zero outside [0, 1]
   float invert(float x) const;                  ///< the u that sample() maps to x in [0, 1]
   float integral() const { return integral_; }  ///< of the values over [0, 1]
+  /// Of the object and its tables [bytes].
+  size_t memory() const {
+    return sizeof(*this) + (densities_.size() + cdf_.size()) * sizeof(float);
+  }
 
  private:
   std::vector<float> densities_;
@@ -73,6 +77,7 @@ class PiecewiseConstant2D {
   PiecewiseSample2D sample(Vec2 u) const;
   float pdf(Vec2 p) const;    ///< zero outside the square
   Vec2 invert(Vec2 p) const;  ///< the u that sample() maps to p in the square
+  size_t memory() const;      ///< of the object and its tables [bytes]
 
  private:
   std::vector<PiecewiseConstant1D> rows_;
