@@ -149,9 +149,8 @@ void add_render_command(Program& program) {
   command
       .footer(
           "Example:\n  tyndall render fog.pbrt -o fog.exr -o fog.png --spp 256\n\n"
-          "The time limit ends the pass in hand, the first Ctrl-C (or SIGTERM) lets it be "
-          "finished;\n"
-          "both write the outputs. A second Ctrl-C ends at once and writes nothing.\n\n" +
+          "The first Ctrl-C (or SIGTERM) and the time limit end the render and write the\n"
+          "outputs; a second Ctrl-C ends at once and writes nothing.\n\n" +
           exit_code_help())
       .on_run([arguments, &program] {
         return run_render_command(*arguments, program.command_line());

@@ -22,7 +22,7 @@ extern "C" void handle_stop_signal(int signal) {
   }
   if (quiet) return;
   constexpr std::string_view message =
-      "\nstopping after the pass in hand; a second signal ends at once\n";
+      "\nstopping; a second signal ends at once and writes nothing\n";
   [[maybe_unused]] const ssize_t written =
       write(STDERR_FILENO, message.data(), message.size());
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Renders that a time limit ends amid a pass.
+// Renders that a time limit or a signal ends amid a pass.
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <map>
 
@@ -78,9 +79,9 @@ TEST(TimeLimit, OneSampleOfEachPixelMayNotFit) {
   EXPECT_EQ(statistics.samples_per_pixel, 0u);
   EXPECT_EQ(statistics.paths, sampled);
   ASSERT_EQ(statistics.notes.size(), 1u);
-  EXPECT_TRUE(statistics.notes[0].starts_with(
-      "the time limit was too short for a sample of each pixel: " +
-      std::to_string(statistics.unsampled_pixels) + " of 1080000 ("));
+  EXPECT_TRUE(statistics.notes[0].starts_with("stopped before each pixel had a sample: " +
+                                              std::to_string(statistics.unsampled_pixels) +
+                                              " of 1080000 ("));
   EXPECT_TRUE(statistics.notes[0].ends_with(" %) show what a pixel nearby found"));
   const Image image = result.film.develop();
   expect_pixels_of_whole_pictures(scene, s, image);
@@ -118,6 +119,34 @@ TEST(TimeLimit, PicturesWithinItAreTheSame) {
   EXPECT_EQ(limited.statistics.unsampled_pixels, 0);
   EXPECT_EQ(limited.film.develop().find("G")->values,
             render(scene, s).film.develop().find("G")->values);
+}
+
+// What may happen to the first pass of a large picture.
+TEST(TimeLimit, StoppingDoesNotWaitForThePass) {
+  const Vec2i resolution{4000, 3000};
+  const Scene scene(foggy_ball(resolution));
+  std::atomic<bool> stop{false};
+  RenderOptions options;
+  options.threads = 2;
+  options.stop = &stop;
+  double stopped_at = infinity;
+  options.on_progress = [&](const RenderProgress& progress) {
+    if (!stop.exchange(true)) stopped_at = progress.seconds;
+  };
+  const RenderSettings s = settings_of(resolution, "volpath");
+  const RenderResult result = render(scene, s, options);
+  EXPECT_TRUE(result.statistics.stopped_early);
+  EXPECT_LT(result.statistics.seconds, stopped_at + 0.75);
+  EXPECT_GT(result.statistics.unsampled_pixels, 0);
+  const Image image = result.film.develop();
+  // In all parts of the picture.
+  for (const float at : {0.1f, 0.5f, 0.9f}) {
+    const auto row = static_cast<size_t>(at * 3000);
+    const float* counts = &image.find("spp.Y")->values[4000 * row];
+    int sampled = 0;
+    for (int i = 0; i < 4000 * 32; ++i) sampled += counts[i] > 0 ? 1 : 0;
+    EXPECT_GT(sampled, 0) << at;
+  }
 }
 
 // Preparation that takes all of the time leaves some for the picture.

@@ -120,10 +120,11 @@ class RenderJob {
     const int64_t count = statistics_.unsampled_pixels = film_.unsampled();
     if (count == 0) return;
     const double share = static_cast<double>(count) / static_cast<double>(pixel_count());
-    statistics_.notes.push_back(fmt::format(
-        "the time limit was too short for a sample of each pixel: {} of {} ({:.1f} %) show "
-        "what a pixel nearby found",
-        count, pixel_count(), 100 * share));
+    statistics_.notes.push_back(
+        fmt::format("stopped before each pixel had a sample: {} of {} ({:.1f} %) show what "
+                    "a pixel nearby "
+                    "found",
+                    count, pixel_count(), 100 * share));
   }
 
   int64_t pixel_count() const {
@@ -134,7 +135,7 @@ class RenderJob {
   void run_passes() {
     uint32_t allowed = 0;  // by the integrator, until it prepares again
     while (done_ < settings_.samples_per_pixel) {
-      if (done_ > 0 && must_stop()) {
+      if (done_ > 0 && deadline_.has_passed()) {
         statistics_.stopped_early = true;
         return;
       }
@@ -156,11 +157,6 @@ class RenderJob {
     }
   }
 
-  bool must_stop() const {
-    if (options_.stop && options_.stop->load(std::memory_order_relaxed)) return true;
-    return deadline_.has_passed();
-  }
-
   // Sizes depend on the clock, images do not: a pixel's samples are the same however they
   // are cut into passes.
   uint32_t next_pass_size() {
@@ -178,7 +174,7 @@ class RenderJob {
     const double start = clock_.seconds();
     const bool is_first = pass.first == 0;
     // Those of the first sample must not be missing, and so come first.
-    if (is_first) run_particles(pass, in_share(first_deadline(), first_particles_share));
+    if (is_first) run_particles(pass, first_deadline().in_share(first_particles_share));
     if (!render_pixels(pass, is_first ? first_deadline() : deadline_)) return false;
     if (!is_first) run_particles(pass, deadline_);
     seconds_per_sample_ = std::max((clock_.seconds() - start) / pass.count, 1e-9);
@@ -186,10 +182,6 @@ class RenderJob {
   }
 
   Deadline first_deadline() const { return deadline_.at_least(least_first_seconds); }
-
-  static Deadline in_share(const Deadline& deadline, double share) {
-    return deadline.is_set() ? Deadline::in(share * deadline.seconds_left()) : Deadline();
-  }
 
   void run_particles(Pass pass, const Deadline& deadline) {
     if (const ParticleTracer* particles = integrator_->particles())
@@ -266,8 +258,7 @@ class RenderJob {
   const RenderOptions& options_;
   // Both clocks run while the integrator is made: it traces what its lights see.
   Stopwatch clock_;
-  Deadline deadline_ =
-      options_.time_limit ? Deadline::in(*options_.time_limit) : Deadline();
+  Deadline deadline_ = Deadline::in(options_.time_limit.value_or(infinity), options_.stop);
   double cpu_start_ = process_cpu_seconds();
   std::unique_ptr<Integrator> integrator_;
   Filter filter_;

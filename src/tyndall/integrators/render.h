@@ -33,7 +33,7 @@ struct RenderOptions {
   /// their own. If it is too short for a sample of each pixel, those of the first pass are
   /// spread over the picture, see Film::develop().
   std::optional<double> time_limit;
-  /// Set to true from anywhere, a signal handler too, to stop after the pass in hand.
+  /// Set to true from anywhere, a signal handler too, to stop as a time limit does.
   const std::atomic<bool>* stop = nullptr;
   /// Called from one thread at a time, at most about ten times a second, and at the end.
   std::function<void(const RenderProgress&)> on_progress;
