@@ -43,6 +43,7 @@ class HomogeneousMedium {
   bool is_grey() const {
     return tyndall::is_grey(properties_.sigma_a) && tyndall::is_grey(properties_.sigma_s);
   }
+  void move(Vec3d /*by*/) {}
   size_t memory() const { return 0; }
   const PhaseFunction& phase() const { return phase_; }
 
