@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "tyndall/geometry/ray.h"
+#include "tyndall/math/vec3d.h"
 #include "tyndall/media/medium_properties.h"
 #include "tyndall/media/phase_function.h"
 
