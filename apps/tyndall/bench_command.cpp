@@ -64,8 +64,8 @@ class Bench {
     Run& run = measured->run;
     run.image = fmt::format("{}-{}-{}.exr", scene.name, file_name(method.name), seed);
     run.command = render_command(scene, plan_, method, run);
-    add_metadata(measured->image, scene.scene->camera(), settings, measured->statistics,
-                 scene.path, run.command);
+    add_metadata(measured->image, *scene.scene, settings, measured->statistics, scene.path,
+                 run.command);
     write_outputs(measured->image, {store_.path(run.image)}, {.half = true});
     method.runs.push_back(run);
     store_.save();

@@ -26,7 +26,7 @@ bool is_scene(const std::string& path) {
 }
 
 LoadedScene load(const std::string& path) {
-  return SceneInput(path, /*strict=*/false, /*quiet=*/false).load();
+  return SceneInput(path, /*strict=*/false, /*quiet=*/false).load(/*keeps_world=*/true);
 }
 
 ExitCode run_info_command(const InfoArguments& arguments) {

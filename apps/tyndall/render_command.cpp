@@ -91,7 +91,7 @@ ExitCode render_and_write(const RenderArguments& arguments, const WriteOptions& 
   const RenderResult result = run_render(scene, arguments, report.settings, stop);
   report.statistics = result.statistics;
   Image image = result.film.develop();
-  add_metadata(image, scene.camera(), report.settings, report.statistics, report.scene,
+  add_metadata(image, scene, report.settings, report.statistics, report.scene,
                report.command_line);
   write_outputs(image, report.outputs, how);
   if (arguments.guiding) {

@@ -9,17 +9,18 @@ namespace tyndall::app {
 
 namespace {
 
-std::vector<float> flatten(const Matrix4& matrix) {
+std::vector<float> flatten(const Transform& transform) {
   std::vector<float> values;
-  for (const auto& row : matrix) values.insert(values.end(), row.begin(), row.end());
+  for (const auto& row : transform.matrix())
+    for (const double x : row) values.push_back(static_cast<float>(x));
   return values;
 }
 
 }  // namespace
 
-void add_metadata(Image& image, const PerspectiveCamera& camera,
-                  const RenderSettings& settings, const RenderStatistics& statistics,
-                  const std::string& scene_path, const std::string& command_line) {
+void add_metadata(Image& image, const Scene& scene, const RenderSettings& settings,
+                  const RenderStatistics& statistics, const std::string& scene_path,
+                  const std::string& command_line) {
   image.text["software"] = version_name();
   image.text["commandLine"] = command_line;
   image.text["scene"] = scene_path;
@@ -29,8 +30,10 @@ void add_metadata(Image& image, const PerspectiveCamera& camera,
   image.numbers["renderTimeSeconds"] = static_cast<float>(statistics.seconds);
   image.numbers["samplesPerPixel"] = static_cast<float>(statistics.samples_per_pixel);
   image.numbers["rejectedSamples"] = static_cast<float>(statistics.rejected.total());
-  image.matrices["worldToCamera"] = flatten(camera.camera_from_world().matrix());
-  image.matrices["worldToNDC"] = flatten(camera.ndc_from_world().matrix());
+  const PerspectiveCamera& camera = scene.camera();
+  const Transform from_outside = Transform::translate(-scene.description().world_origin);
+  image.matrices["worldToCamera"] = flatten(camera.camera_from_world() * from_outside);
+  image.matrices["worldToNDC"] = flatten(camera.ndc_from_world() * from_outside);
 }
 
 }  // namespace tyndall::app

@@ -12,8 +12,8 @@ namespace tyndall::app {
 /// scene, integrator, sampler, seed (text); renderTimeSeconds, samplesPerPixel,
 /// rejectedSamples (numbers); worldToCamera, worldToNDC (matrices for column vectors, row
 /// by row, as pbrt-v4 writes them).
-void add_metadata(Image& image, const PerspectiveCamera& camera,
-                  const RenderSettings& settings, const RenderStatistics& statistics,
-                  const std::string& scene_path, const std::string& command_line);
+void add_metadata(Image& image, const Scene& scene, const RenderSettings& settings,
+                  const RenderStatistics& statistics, const std::string& scene_path,
+                  const std::string& command_line);
 
 }  // namespace tyndall::app

@@ -36,9 +36,10 @@ bool has_same_window(const PerspectiveCamera::Settings& a,
 SceneInput::SceneInput(std::string path, bool strict, bool quiet)
     : path_(std::move(path)), strict_(strict), quiet_(quiet) {}
 
-LoadedScene SceneInput::load() {
+LoadedScene SceneInput::load(bool keeps_world) {
   LoadOptions options;
   options.strict = strict_;
+  options.keeps_world = keeps_world;
   options.on_warning = [this](const Diagnostic& diagnostic) { warn(diagnostic.text); };
   return load_scene(path_, options);
 }

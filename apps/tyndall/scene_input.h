@@ -14,8 +14,8 @@ class SceneInput {
  public:
   SceneInput(std::string path, bool strict, bool quiet);
 
-  /// Throws what load_scene() throws.
-  LoadedScene load();
+  /// Throws what load_scene() throws. `keeps_world` as in LoadOptions.
+  LoadedScene load(bool keeps_world = false);
   /// Prints sentences that concern the scene as a whole.
   void warn_all(const std::vector<std::string>& sentences);
   int warning_count() const { return static_cast<int>(printed_.size()); }

@@ -22,9 +22,9 @@ class SceneInfo(ProgramTest):
             "  media     homogeneous", ""]))
 
     def test_json(self):
-        self.write("grid.pbrt", 'Camera "perspective" MakeNamedMedium "g" "string type" '
-                   '"uniformgrid" "float density" 1 "rgb Le" [1 2 3]\nWorldBegin\n'
-                   'LightSource "infinite" Shape "trianglemesh" "point3 P" [0 0 0 1 0 0 0 1 0]')
+        self.write("grid.pbrt", 'LookAt 1.1 2.2 3.3 0 0 0 0 1 0 Camera "perspective"\n'
+                   'WorldBegin MakeNamedMedium "g" "string type" "uniformgrid" '
+                   '"float density" 1 "rgb Le" [1 2 3]\nLightSource "infinite" Shape "trianglemesh" "point3 P" [0 0 0 1 0 0 0 1 0]')
         result = self.run_program("info", "--json", "fog.pbrt", "grid.pbrt")
         self.assertEqual(result.returncode, 0, result.stderr)
         fog, grid = json.loads(result.stdout)

@@ -61,7 +61,7 @@ class InspectTest(ProgramTest):
                  (data[:-12], "it is cut off"), (data + b"\0", "something follows its end"),
                  (b"", "it is no file of --dump-guiding"),
                  (data[:4] + b"\1" + data[5:],
-                  "its format has version 1, this program reads version 2")]
+                  "its format has version 1, this program reads version 3")]
         for content, message in cases:
             (self.folder / "b.guide").write_bytes(content)
             result = self.inspect("b.guide")

@@ -182,6 +182,58 @@ class PictureTest(ProgramTest):
                                       self.exr("bright.exr").channels()["R"])
 
 
+# A lamp and what hides it, in fog; {there} and {back} move everything.
+MOVED = """Film "rgb" "integer xresolution" 24 "integer yresolution" 16
+Sampler "independent" "integer pixelsamples" 16
+PixelFilter "box"
+Integrator "volpath" "integer maxdepth" 4
+MakeNamedMedium "fog" "string type" "homogeneous" "rgb sigma_s" [.2 .2 .2] "rgb sigma_a" [0 0 0]
+LookAt 0.3 0.2 -5  0 0 0  0 1 0
+Translate {back}
+MediumInterface "" "fog"
+Camera "perspective" "float fov" 50
+WorldBegin
+Translate {there}
+MediumInterface "fog" "fog"
+Material "diffuse" "rgb reflectance" [.5 .5 .5]
+Shape "sphere" "float radius" 9
+Shape "trianglemesh" "point3 P" [-.5 -.6 -.3 .5 -.6 -.2 .4 .1 -.3] "integer indices" [0 1 2]
+AreaLightSource "diffuse" "rgb L" [200 200 200] Translate 0 0 .1 Shape "sphere" "float radius" .05
+"""
+
+
+class MovedSceneTest(ProgramTest):
+    """A scene far from the origin looks as it does at the origin."""
+
+    def picture(self, integrator, there, back):
+        self.write("moved.pbrt", MOVED.format(there=there, back=back))
+        result = self.run_program("render", "moved.pbrt", "--integrator", integrator, "--float",
+                                  "-q", "-o", "moved.exr")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.last = self.exr("moved.exr")
+        channels = self.last.channels()
+        return np.stack([channels[c] for c in "RGB"]).astype(float)
+
+    def test_pictures_are_the_same(self):
+        # Coordinates may differ in their last bits, so that a path here and there does another
+        # thing; what is learned from it is in all pixels.
+        for integrator, share, most in (("volpath", 0.9, 1e-5), ("jis", 0.9, 1e-5),
+                                        ("learned", 0.5, 1e-3)):
+            here = self.picture(integrator, "0 0 0", "0 0 0")
+            moved = self.picture(integrator, "30000.3 -30000 0", "-30000.3 30000 0")
+            self.assertLess(np.quantile(abs(moved - here) / here, share), most, integrator)
+
+    def test_matrices_are_of_the_scenes_world(self):
+        self.picture("volpath", "3000 -2000 0", "-3000 2000 0")
+        for name in ("worldToCamera", "worldToNDC"):
+            eye, target = (self.last[name] @ p for p in ([3000.3, -1999.8, -5, 1],
+                                                         [3000, -2000, 0, 1]))
+            np.testing.assert_allclose(eye[[0, 1]], [0, 0], atol=1e-3)
+            expected = [0, 0] if name == "worldToCamera" else [0.5, 0.5]
+            scale = 1 if name == "worldToCamera" else target[3]
+            np.testing.assert_allclose(target[:2] / scale, expected, atol=1e-3)
+
+
 class EnvironmentTest(ProgramTest):
     def test_twins(self):
         result = self.render("--stats", "json", TYNDALL_SPP="3", TYNDALL_SIZE="4x2",

@@ -114,7 +114,7 @@ TEST(SelfIntersection, NeverHappensAtTheOrigin) {
   for (const Shape& shape : shapes)
     for (const Scene& scene : both_ways(shape, Transform::rotate(20, {3, 1, 1}))) {
       const Intersector intersector(scene.groups, scene.instances);
-      for (int i = 0; i < 1000; ++i) {
+      for (int i = 0; i < 4000; ++i) {
         const Vec3 o = random_direction(random) * 4;
         const auto hit = intersector.intersect({o, normalize(-o)}, infinity, RayMask::all);
         if (!hit) continue;  // edge-on

@@ -60,7 +60,7 @@ TEST(GuidingFileTest, SaysWhatIsWrongWithAFile) {
   EXPECT_EQ(error_of(wrong), "it is no file of --dump-guiding");
   wrong = whole;
   wrong[4] = std::byte{9};
-  EXPECT_EQ(error_of(wrong), "its format has version 9, this program reads version 2");
+  EXPECT_EQ(error_of(wrong), "its format has version 9, this program reads version 3");
   wrong = whole;
   wrong.push_back(std::byte{0});
   EXPECT_EQ(error_of(wrong), "something follows its end");
@@ -75,9 +75,9 @@ TEST(GuidingFileTest, NoPartOfAFileIsAFile) {
 
 TEST(GuidingFileTest, RefusesDamagedSectionsAndSkipsUnknownOnes) {
   std::vector<std::byte> bytes = written();
-  // After magic, version, TIME of 12 + 16 bytes and SCNE of 12 + 40: the name of the map's
+  // After magic, version, TIME of 12 + 16 bytes and SCNE of 12 + 64: the name of the map's
   // section.
-  constexpr size_t map_section = 8 + 12 + 16 + 12 + 40;
+  constexpr size_t map_section = 8 + 12 + 16 + 12 + 64;
   ASSERT_EQ(bytes[map_section], std::byte{'V'});
   std::vector<std::byte> damaged = bytes;
   damaged[map_section + 12 + 4] = std::byte{77};  // the kind of its view

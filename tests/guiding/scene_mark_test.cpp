@@ -32,6 +32,10 @@ TEST(SceneMarkTest, SaysWhatDiffers) {
   other.camera.x = 0.001f;
   EXPECT_EQ(difference(room(), other),
             "whose camera stands at (0.001, -0.9, 1), not (0, -0.9, 1)");
+  other = room();
+  other.world_origin.y = 2;
+  EXPECT_EQ(difference(room(), other),
+            "whose coordinates begin at (0, 2, 0), not (0, 0, 0)");
   EXPECT_EQ(difference(room(), {.lights = 3}).substr(0, 13), "which reaches");
 }
 

@@ -10,7 +10,8 @@ namespace {
 using test::parse_options;
 
 PerspectiveCamera::Settings camera_of(const std::string& text) {
-  return parse_scene(text + "\nWorldBegin\nLightSource \"infinite\"\n", "test.pbrt")
+  return parse_scene(text + "\nWorldBegin\nLightSource \"infinite\"\n", "test.pbrt",
+                     {.strict = false, .on_warning = {}, .keeps_world = true})
       .scene.camera.settings();
 }
 

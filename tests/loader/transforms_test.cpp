@@ -44,7 +44,8 @@ TEST(LoadTransformTest, NamesCoordinateSystems) {
 TEST(LoadTransformTest, CameraIsACoordinateSystem) {
   const LoadedScene loaded = parse_world("CoordSysTransform \"camera\" Shape \"sphere\"",
                                          "LookAt 4 5 6  0 0 0  0 1 0");
-  expect_near(origin(loaded.scene.surfaces[0]), {4, 5, 6});
+  expect_near(origin(loaded.scene.surfaces[0]), {0, 0, 0});
+  expect_near(to_float(loaded.scene.world_origin), {4, 5, 6});
 }
 
 TEST(LoadTransformTest, OnlyTheStartOfMotionCounts) {

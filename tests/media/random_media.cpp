@@ -106,12 +106,12 @@ Ray random_ray(RandomStream& rng, RayStart start, const Bounds3& bounds,
 
 namespace {
 
-struct Vec3d {
+struct DoublePoint {
   double x[3];
 };
 
 // The interpolant at a point of medium space.
-double interpolate(const DensityGrid& grid, const Bounds3& bounds, Vec3d p) {
+double interpolate(const DensityGrid& grid, const Bounds3& bounds, DoublePoint p) {
   const Vec3i n = grid.resolution;
   const int counts[3] = {n.x, n.y, n.z};
   int first[3];
@@ -145,7 +145,7 @@ double interpolate(const DensityGrid& grid, const Bounds3& bounds, Vec3d p) {
 
 double reference_density(const DensityGrid& grid, const Bounds3& bounds,
                          const Transform& world_from_medium, Vec3 p_world) {
-  Vec3d p{};
+  DoublePoint p{};
   for (int axis = 0; axis < 3; ++axis) {
     const auto& row = world_from_medium.inverse_matrix()[static_cast<size_t>(axis)];
     p.x[axis] = double{row[3]};
@@ -160,7 +160,7 @@ double reference_optical_depth(const DensityGrid& grid, const Bounds3& bounds,
                                double t_max) {
   const Matrix4& m = world_from_medium.inverse_matrix();
   const int counts[3] = {grid.resolution.x, grid.resolution.y, grid.resolution.z};
-  Vec3d o{}, d{};
+  DoublePoint o{}, d{};
   std::vector<double> t{0, t_max};
   // The interpolant is cubic along the ray between the planes of the samples and of the
   // box.

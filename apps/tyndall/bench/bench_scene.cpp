@@ -49,7 +49,7 @@ bool make_reference(const BenchScene& bench, const BenchPlan& plan, const std::s
   const RenderResult result = render(*bench.scene, settings, options);
   if (stop) return false;
   Image image = result.film.develop();
-  add_metadata(image, bench.scene->camera(), settings, result.statistics, bench.path, "");
+  add_metadata(image, *bench.scene, settings, result.statistics, bench.path, "");
   write_outputs(image, {path}, {});
   return true;
 }

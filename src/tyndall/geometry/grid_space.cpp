@@ -6,9 +6,14 @@
 namespace tyndall {
 
 GridSpace::GridSpace(const Transform& grid_from_world) {
-  const Matrix4& m = grid_from_world.matrix();
-  for (size_t i = 0; i < 3; ++i)
-    for (size_t j = 0; j < 4; ++j) m_[i][j] = double{m[i][j]};
+  for (size_t i = 0; i < 3; ++i) m_[i] = grid_from_world.matrix()[i];
+}
+
+GridSpace GridSpace::moved(Vec3d by) const {
+  GridSpace result = *this;
+  for (std::array<double, 4>& m : result.m_)
+    m[3] -= m[0] * by.x + m[1] * by.y + m[2] * by.z;
+  return result;
 }
 
 std::optional<GridSpace::Clip> GridSpace::clip(const Ray& ray, float t_max,

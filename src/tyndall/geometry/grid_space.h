@@ -18,6 +18,9 @@ class GridSpace {
   GridSpace() : GridSpace(Transform()) {}
   explicit GridSpace(const Transform& grid_from_world);
 
+  /// Of a grid that is moved in the world.
+  GridSpace moved(Vec3d by) const;
+
   Vec3 point(Vec3 p) const { return {row(0, p, 1), row(1, p, 1), row(2, p, 1)}; }
 
   /// A ray in grid space, and the part of it that lies in a box.

@@ -377,7 +377,7 @@ class Intersector::Impl {
     for (size_t i = 0; i < instances.size(); ++i) {
       const auto& [group, world_from_group] = instances[i];
       assert(0 < group && group < groups.size());
-      const Affine world(world_from_group);
+      const Affine world = Affine(world_from_group).rounded();  // as Embree keeps it
       instances_.maps.push_back({group, world, world.inverse()});
       uint32_t mask = 0;
       for (const Member& member : groups[group]) mask |= mask_of(member);
@@ -385,7 +385,7 @@ class Intersector::Impl {
           rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_INSTANCE));
       rtcSetGeometryInstancedScene(handle.get(), scenes_[group].get());
       rtcSetGeometryTransform(handle.get(), 0, RTC_FORMAT_FLOAT3X4_ROW_MAJOR,
-                              world_from_group.matrix().data());
+                              world.floats().data());
       rtcSetGeometryMask(handle.get(), mask);
       rtcCommitGeometry(handle.get());
       const uint32_t id = instances_.first + static_cast<uint32_t>(i);

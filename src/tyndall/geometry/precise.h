@@ -7,53 +7,9 @@
 
 #include "tyndall/math/bounds.h"
 #include "tyndall/math/transform.h"
-#include "tyndall/math/vec.h"
+#include "tyndall/math/vec3d.h"
 
 namespace tyndall {
-
-/// A point, direction or normal in double precision: what lies between the float vertices
-/// of a shape and the float point of a hit, so that the latter is off the shape by one
-/// rounding only.
-struct Vec3d {
-  double x = 0, y = 0, z = 0;
-
-  constexpr Vec3d() = default;
-  constexpr Vec3d(double x_, double y_, double z_) : x(x_), y(y_), z(z_) {}
-  constexpr explicit Vec3d(Vec3 v)
-      : x(static_cast<double>(v.x)),
-        y(static_cast<double>(v.y)),
-        z(static_cast<double>(v.z)) {}
-
-  constexpr Vec3d operator-() const { return {-x, -y, -z}; }
-
-  // Friends, so that they do not compete for the braces in length({x, y, z}).
-  friend constexpr Vec3d operator+(Vec3d a, Vec3d b) {
-    return {a.x + b.x, a.y + b.y, a.z + b.z};
-  }
-  friend constexpr Vec3d operator-(Vec3d a, Vec3d b) {
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-  }
-  friend constexpr Vec3d operator*(Vec3d a, double s) {
-    return {a.x * s, a.y * s, a.z * s};
-  }
-  friend constexpr Vec3d operator*(double s, Vec3d a) { return a * s; }
-  friend constexpr double dot(Vec3d a, Vec3d b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-  }
-  friend constexpr Vec3d cross(Vec3d a, Vec3d b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-  }
-  friend double length(Vec3d a) { return std::sqrt(dot(a, a)); }
-  /// The sum of the components without their signs: a cheap bound of length().
-  friend double taxicab_length(Vec3d a) {
-    return std::abs(a.x) + std::abs(a.y) + std::abs(a.z);
-  }
-};
-
-/// Rounds each component to the nearest float.
-constexpr Vec3 to_float(Vec3d a) {
-  return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)};
-}
 
 /// The smallest box of floats that holds the box from `min` to `max`.
 inline Bounds3 enclosing(Vec3d min, Vec3d max) {
@@ -86,7 +42,7 @@ class Affine {
   /// Precondition: the transform is affine; its last row is ignored.
   explicit Affine(const Transform& t) {
     for (size_t i = 0; i < 3; ++i)
-      for (size_t j = 0; j < 4; ++j) m_[i][j] = static_cast<double>(t.matrix()[i][j]);
+      for (size_t j = 0; j < 4; ++j) m_[i][j] = t.matrix()[i][j];
   }
 
   /// The image of the j-th axis, or of the origin for j = 3.
@@ -112,8 +68,7 @@ class Affine {
     return determinant() < 0 ? -image : image;
   }
 
-  /// Of the double-precision matrix, and so more exactly inverse to it than
-  /// Transform::inverse_matrix(). Not finite if the matrix is singular.
+  /// Not finite if the matrix is singular.
   Affine inverse() const {
     const double inv = 1 / determinant();
     const Vec3d rows[3] = {cross(column(1), column(2)) * inv,
@@ -122,6 +77,20 @@ class Affine {
     Affine result = *this;
     for (size_t i = 0; i < 3; ++i)
       result.m_[i] = {rows[i].x, rows[i].y, rows[i].z, -dot(rows[i], column(3))};
+    return result;
+  }
+
+  /// Row by row.
+  std::array<float, 12> floats() const {
+    std::array<float, 12> values{};
+    for (size_t i = 0; i < 12; ++i) values[i] = static_cast<float>(m_[i / 4][i % 4]);
+    return values;
+  }
+  /// The map of floats().
+  Affine rounded() const {
+    Affine result = *this;
+    for (size_t i = 0; i < 12; ++i)
+      result.m_[i / 4][i % 4] = static_cast<double>(floats()[i]);
     return result;
   }
 

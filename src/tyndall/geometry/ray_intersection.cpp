@@ -148,12 +148,13 @@ std::optional<PreciseHit> intersect_patch(const BilinearPatch& patch, const Prec
     if (!(v >= -tolerance && v <= 1 + tolerance)) continue;
     const double v_inside = std::clamp(v, 0.0, 1.0);
     const Vec3d n = patch.normal(u, v_inside);
-    if (starts_on_surface(t * dot(n, ray.d),
+    const Vec3d p = patch.position(u, v_inside);
+    // Not t * dot(n, ray.d): t is inexact for rays that are all but parallel to w.
+    if (starts_on_surface(dot(p - ray.o, n),
                           length(n) * (length(q) + length(e) + length(w))))
       continue;
-    closest = PreciseHit{.t = t,
-                         .uv = {static_cast<float>(u), static_cast<float>(v_inside)},
-                         .p = patch.position(u, v_inside)};
+    closest = PreciseHit{
+        .t = t, .uv = {static_cast<float>(u), static_cast<float>(v_inside)}, .p = p};
   }
   return closest;
 }

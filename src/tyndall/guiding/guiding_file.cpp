@@ -7,8 +7,8 @@
 namespace tyndall {
 namespace {
 
-// 2: ends with a mark.
-constexpr uint32_t version = 2;
+// 2: ends with a mark. 3: the scene has an origin.
+constexpr uint32_t version = 3;
 
 constexpr uint32_t name_of(const char (&letters)[5]) {
   uint32_t name = 0;

@@ -34,21 +34,28 @@ std::string text(Vec3 p) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x, p
 }  // namespace
 
 SceneMark SceneMark::of(const Scene& scene) {
+  const Vec3d origin = scene.description().world_origin;
+  const auto outside = [&](Vec3 p) { return to_float(p + origin); };
+  const Bounds3 bounds = scene.bounds();
   return {.lights = static_cast<uint32_t>(scene.lights().size()),
-          .bounds = scene.bounds(),
-          .camera = scene.camera().position()};
+          .bounds = {outside(bounds.min), outside(bounds.max)},
+          .camera = outside(scene.camera().position()),
+          .world_origin = origin};
 }
 
 SceneMark SceneMark::read(ByteReader& in) {
   SceneMark mark;
   in.read(mark.lights);
   in.read(mark.bounds.min), in.read(mark.bounds.max), in.read(mark.camera);
+  Vec3d& origin = mark.world_origin;
+  in.read(origin.x), in.read(origin.y), in.read(origin.z);
   return mark;
 }
 
 void SceneMark::write(ByteWriter& out) const {
   out.write(lights);
   out.write(bounds.min), out.write(bounds.max), out.write(camera);
+  out.write(world_origin.x), out.write(world_origin.y), out.write(world_origin.z);
 }
 
 std::string difference(const SceneMark& mark, const SceneMark& other) {
@@ -64,6 +71,10 @@ std::string difference(const SceneMark& mark, const SceneMark& other) {
   if (!are_near(mark.camera, other.camera, tolerance))
     return fmt::format("whose camera stands at {}, not {}", text(other.camera),
                        text(mark.camera));
+  if (!are_near(to_float(mark.world_origin), to_float(other.world_origin), tolerance))
+    return fmt::format("whose coordinates begin at {}, not {}",
+                       text(to_float(other.world_origin)),
+                       text(to_float(mark.world_origin)));
   return {};
 }
 

@@ -6,6 +6,7 @@
 
 #include "tyndall/guiding/byte_stream.h"
 #include "tyndall/math/bounds.h"
+#include "tyndall/math/vec3d.h"
 
 namespace tyndall {
 
@@ -14,8 +15,9 @@ class Scene;
 /// What tells a scene from others, so that what was learned in one is not used in another.
 struct SceneMark {
   uint32_t lights = 0;
-  Bounds3 bounds;
-  Vec3 camera;  ///< where it stands
+  Bounds3 bounds;        ///< in the world outside
+  Vec3 camera;           ///< where it stands there
+  Vec3d world_origin{};  ///< of the coordinates in which was learned
 
   static SceneMark of(const Scene& scene);
   static SceneMark read(ByteReader& in);

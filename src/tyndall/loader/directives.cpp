@@ -45,14 +45,14 @@ void scale(Parser& in, SceneBuilder& scene) {
 
 void rotate(Parser& in, SceneBuilder& scene) {
   const auto [angle, x, y, z] = in.numbers<4>();
-  const float size = length(Vec3{x, y, z});
+  const double size = length(Vec3d{x, y, z});
   if (!(size > 0) || !std::isfinite(size))
     fail(in.directive().where, fmt::format("Rotate needs an axis, got {} {} {}", x, y, z));
   scene.concatenate(Transform::rotate(angle, {x, y, z}));
 }
 
 void look_at(Parser& in, SceneBuilder& scene) {
-  const std::array<float, 9> v = in.numbers<9>();
+  const std::array<double, 9> v = in.numbers<9>();
   const auto transform =
       Transform::look_at({v[0], v[1], v[2]}, {v[3], v[4], v[5]}, {v[6], v[7], v[8]});
   if (!transform)
@@ -62,7 +62,7 @@ void look_at(Parser& in, SceneBuilder& scene) {
 }
 
 Transform matrix(Parser& in) {
-  const std::array<float, 16> v = in.numbers<16>();
+  const std::array<double, 16> v = in.numbers<16>();
   Matrix4 m{};  // the file holds columns
   for (size_t i = 0; i < 16; ++i) m[i % 4][i / 4] = v[i];
   const auto transform = Transform::from_matrix(m);

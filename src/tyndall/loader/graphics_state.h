@@ -37,7 +37,7 @@ struct AreaLightRequest {
 
 /// What AttributeBegin saves and AttributeEnd restores.
 struct GraphicsState {
-  Transform ctm;            ///< world from what is being described
+  Transform ctm;            ///< the file's world from what is being described
   bool moves_start = true;  ///< transformations apply to the start of the shutter time
   bool reverse_orientation = false;
   ColorSpace color_space = ColorSpace::srgb;

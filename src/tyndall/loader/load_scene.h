@@ -14,6 +14,8 @@ namespace tyndall {
 struct LoadOptions {
   bool strict = false;     ///< what is not supported is an error, not a warning
   WarningSink on_warning;  ///< may be empty
+  /// Coordinates stay the file's: no world_origin, whatever "rendercoordsys" says.
+  bool keeps_world = false;
 };
 
 struct LoadedScene {

@@ -79,6 +79,7 @@ std::optional<Shape> make_triangles(const ShapeContext& in) {
   if (indices.empty()) return std::nullopt;
   for (size_t i = 0; i < indices.size(); i += 3)
     parts.triangles.push_back({indices[i], indices[i + 1], indices[i + 2]});
+  move_positions(parts.positions, in.world_from_object);
   return make_triangle_mesh(std::move(parts), in.world_from_object, in.reverse_orientation);
 }
 
@@ -100,7 +101,8 @@ std::optional<Shape> make_bilinear(const ShapeContext& in) {
   std::vector<std::array<int, 4>> patches;
   for (size_t i = 0; i < indices.size(); i += 4)
     patches.push_back({indices[i], indices[i + 1], indices[i + 2], indices[i + 3]});
-  move_to_world(positions, normals, in.world_from_object, in.reverse_orientation);
+  move_positions(positions, in.world_from_object);
+  move_normals(normals, in.world_from_object, in.reverse_orientation);
   return BilinearMesh(std::move(positions), std::move(patches), std::move(normals),
                       std::move(uvs), in.flips_normals());
 }
@@ -113,7 +115,7 @@ std::optional<Shape> make_ply(const ShapeContext& in) {
   const std::string path =
       in.files.find(p.required_string("filename"), p.where("filename"));
   try {
-    PlyMesh ply = read_ply(read_bytes(path));
+    PlyMesh ply = read_ply(read_bytes(path), in.world_from_object);
     if (ply.has_skipped_faces)
       p.reporter().warning(
           p.where("filename"),

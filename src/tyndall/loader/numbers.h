@@ -38,6 +38,17 @@ inline NumberError parse_number(std::string_view text, float& value) {
   return NumberError::none;
 }
 
+/// The same to double precision, for numbers that a float could hold.
+inline NumberError parse_number(std::string_view text, double& value) {
+  float rounded = 0;
+  const NumberError error = parse_number(text, rounded);
+  value = static_cast<double>(rounded);
+  if (error != NumberError::none || rounded == 0) return error;
+  if (text.front() == '+') text.remove_prefix(1);
+  std::from_chars(text.data(), text.data() + text.size(), value);
+  return NumberError::none;
+}
+
 /// Reads all of `text` as a 32-bit integer.
 inline NumberError parse_number(std::string_view text, int& value) {
   const char* begin = text.data();

@@ -86,9 +86,9 @@ void Parser::fail_at(const Token& token, std::string_view expected) {
                    token.kind == TokenKind::end ? "but " : "", description(token)));
 }
 
-float Parser::number() {
+double Parser::number() {
   const Token token = tokenizer().next();
-  float value = 0;
+  double value = 0;
   if (token.kind != TokenKind::word ||
       parse_number(token.text, value) == NumberError::malformed)
     fail_at(token, "a number");
@@ -97,7 +97,7 @@ float Parser::number() {
   return value;
 }
 
-void Parser::read_numbers(float* values, size_t count) {
+void Parser::read_numbers(double* values, size_t count) {
   const bool has_brackets = tokenizer().peek().kind == TokenKind::open_bracket;
   if (has_brackets) tokenizer().next();
   std::generate_n(values, count, [this] { return number(); });

@@ -38,11 +38,11 @@ class Parser {
 
   /// The directive being read; its place grows by the names and types that follow it.
   const Token& directive() const { return directive_; }
-  float number();
+  double number();
   /// N numbers, with or without brackets around them.
   template <size_t N>
-  std::array<float, N> numbers() {
-    std::array<float, N> values{};
+  std::array<double, N> numbers() {
+    std::array<double, N> values{};
     read_numbers(values.data(), N);
     return values;
   }
@@ -65,7 +65,7 @@ class Parser {
   void step();
   void end_input();
   void recover();
-  void read_numbers(float* values, size_t count);
+  void read_numbers(double* values, size_t count);
   [[noreturn]] void fail_at(const Token& token, std::string_view expected);
 
   Parameter parameter(const Token& declaration);

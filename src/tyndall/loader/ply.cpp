@@ -109,17 +109,20 @@ size_t smallest_size(const PlyElement& element, const PlyValues& values) {
   return size;
 }
 
-void read_vertices(const PlyElement& element, PlyValues& values, PlyMesh& mesh) {
+void read_vertices(const PlyElement& element, PlyValues& values, const Transform& placing,
+                   PlyMesh& mesh) {
   const VertexLayout layout = layout_of(element);
   check_count(element, smallest_size(element, values), values);
   mesh.positions.reserve(element.count);
-  std::vector<float> row(element.properties.size());
-  const auto at = [&](int i) { return row[static_cast<size_t>(i)]; };
+  std::vector<double> row(element.properties.size());
+  const auto exact = [&](int i) { return row[static_cast<size_t>(i)]; };
+  const auto at = [&](int i) { return static_cast<float>(exact(i)); };
   for (size_t i = 0; i < element.count; ++i) {
     for (size_t j = 0; j < row.size(); ++j)
-      row[j] = static_cast<float>(values.next(element.properties[j].type));
-    mesh.positions.push_back(
-        {at(layout.position[0]), at(layout.position[1]), at(layout.position[2])});
+      row[j] = values.next(element.properties[j].type);
+    mesh.positions.push_back(to_float(
+        placing.precise_point({exact(layout.position[0]), exact(layout.position[1]),
+                               exact(layout.position[2])})));
     if (!is_finite(mesh.positions.back()))
       throw std::runtime_error(fmt::format("vertex {} of the PLY file is not finite", i));
     if (layout.has_normals())
@@ -195,13 +198,13 @@ void check_indices(const PlyMesh& mesh) {
 
 }  // namespace
 
-PlyMesh read_ply(std::string_view bytes) {
+PlyMesh read_ply(std::string_view bytes, const Transform& placing) {
   const PlyHeader header = read_ply_header(bytes);
   PlyValues values(bytes.substr(header.size), header.format);
   PlyMesh mesh;
   for (const PlyElement& element : header.elements) {
     if (element.name == "vertex")
-      read_vertices(element, values, mesh);
+      read_vertices(element, values, placing, mesh);
     else if (element.name == "face")
       read_faces(element, values, mesh);
     else

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "tyndall/math/transform.h"
 #include "tyndall/math/vec.h"
 
 namespace tyndall::loader {
@@ -22,7 +23,7 @@ struct PlyMesh {
 /// of any number of corners, cut into triangles that share the first. Elements and
 /// properties that it does not know are skipped. Throws std::runtime_error with the reason,
 /// without the path: truncated, indices out of range, positions that are not finite, a
-/// broken header.
-PlyMesh read_ply(std::string_view bytes);
+/// broken header. Positions are rounded after `placing` them, normals stay as they are.
+PlyMesh read_ply(std::string_view bytes, const Transform& placing = {});
 
 }  // namespace tyndall::loader

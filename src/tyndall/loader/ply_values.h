@@ -16,7 +16,10 @@ class PlyValues {
 
   /// Throws std::runtime_error if the data end or, in ascii, are no number.
   double next(PlyType type) {
-    return format_ == PlyFormat::ascii ? next_word() : next_bytes(type);
+    if (format_ != PlyFormat::ascii) return next_bytes(type);
+    const double value = next_word();
+    return type == PlyType::float32 ? static_cast<double>(static_cast<float>(value))
+                                    : value;
   }
   size_t bytes_left() const { return data_.size() - at_; }
   bool is_ascii() const { return format_ == PlyFormat::ascii; }

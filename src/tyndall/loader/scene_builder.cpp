@@ -13,13 +13,6 @@
 namespace tyndall::loader {
 namespace {
 
-bool is_finite(const Matrix4& m) {
-  for (const auto& row : m)
-    for (const float x : row)
-      if (!std::isfinite(x)) return false;
-  return true;
-}
-
 constexpr std::array<std::string_view, 5> attribute_targets{"shape", "light", "material",
                                                             "medium", "texture"};
 
@@ -57,9 +50,15 @@ ParameterSet SceneBuilder::parameter_set(const Token& directive, const std::stri
           defaults == state_.defaults.end() ? nullptr : &defaults->second};
 }
 
-void SceneBuilder::check_transform(const Transform& transform) const {
-  if (!is_finite(transform.matrix()) || !is_finite(transform.inverse_matrix()))
-    fail(directive_, "the transformation has become too large or too small for numbers");
+void SceneBuilder::check_transform(const Transform& transform, Span where) const {
+  if (!transform.fits_in_floats())
+    fail(where, "the transformation has become too large or too small for numbers");
+}
+
+Transform SceneBuilder::from_here(Vec3d origin) const {
+  const Transform transform = Transform::translate(-origin) * state_.ctm;
+  check_transform(transform, directive_);
+  return transform;
 }
 
 void SceneBuilder::identity() {
@@ -72,7 +71,7 @@ void SceneBuilder::concatenate(const Transform& transform) {
 
 void SceneBuilder::set_transform(const Transform& transform) {
   if (!state_.moves_start) return;
-  check_transform(transform);
+  check_transform(transform, directive_);
   state_.ctm = transform;
 }
 
@@ -144,7 +143,7 @@ void SceneBuilder::object_begin(const std::string& name) {
                     fmt::format("there is already an object named \"{}\"", name));
   save(Scope::object);
   is_in_object_ = true;
-  objects_.emplace_back();
+  objects_.push_back({state_.ctm.precise_point({}), {}});
 }
 
 void SceneBuilder::object_end() {

@@ -23,8 +23,10 @@ namespace tyndall::loader {
 /// if the directive cannot be carried out; the state is then as if it had not been there.
 class SceneBuilder {
  public:
-  SceneBuilder(const FileFinder& files, Reporter& reporter)
-      : files_(files), reporter_(reporter), textures_(files) {}
+  /// `origin` is that of the scene's coordinates, in the file's world; where none is given,
+  /// the file's option decides or, that missing, it is the camera's position.
+  SceneBuilder(const FileFinder& files, Reporter& reporter, std::optional<Vec3d> origin)
+      : files_(files), reporter_(reporter), wanted_origin_(origin), textures_(files) {}
 
   /// Called before each directive. Throws Failure if it may not stand here.
   void enter(Phase phase, const Token& directive);
@@ -34,6 +36,8 @@ class SceneBuilder {
   /// up here. `end` is where the scene file ends.
   LoadedScene finish(Span end);
 
+  /// Whether neither the caller nor the file says where the origin is to be.
+  bool is_free_to_choose_origin() const { return !wanted_origin_ && !coordinates_; }
   ColorSpace color_space() const { return state_.color_space; }
   ParameterSet parameter_set(const Token& directive, const std::string& name,
                              std::vector<Parameter> parameters);
@@ -99,15 +103,24 @@ class SceneBuilder {
     MaterialReference material;
     MediumNames media;
   };
+  /// Surfaces about an origin of their own, where floats are finest for them.
+  struct PendingObject {
+    Vec3d origin;  // in the file's world
+    std::vector<PendingSurface> surfaces;
+  };
   struct PendingInstance {
     std::string object;
-    Transform world_from_object;
+    Transform ctm;
     Span where;
   };
 
   void save(Scope scope);
   void restore(Scope scope, std::string_view begin);
-  void check_transform(const Transform& transform) const;
+  void check_transform(const Transform& transform, Span where) const;
+  /// Coordinates about a point of the file's world from what is being described.
+  Transform from_here(Vec3d origin) const;
+  Vec3d chosen_origin() const;
+  void put_origin_at(Vec3d p);
   std::vector<PendingSurface>& target_surfaces();
   void add_surface(const std::string& type, Shape shape, float alpha,
                    ParameterSet& parameters);
@@ -119,6 +132,7 @@ class SceneBuilder {
   Material resolved(const MaterialReference& reference);
   Surface resolved(PendingSurface pending);
   std::vector<Surface> resolved(std::vector<PendingSurface> pending);
+  Transform placed(const PendingInstance& instance, const PendingObject& object);
   std::vector<ObjectInstance> resolved_instances();
   template <typename Map>
   void miss(std::string_view kind, const std::string& name, const Map& known, Span where);
@@ -126,6 +140,9 @@ class SceneBuilder {
 
   const FileFinder& files_;
   Reporter& reporter_;
+  std::optional<Vec3d> wanted_origin_;
+  std::optional<std::string> coordinates_;  // what the file says of them
+  Vec3d origin_;    // of the scene's coordinates, in the file's world
   Span directive_;  // the one being carried out
   bool is_in_world_ = false;
   bool is_world_missed_ = false;  // a directive of the world stood before it
@@ -145,7 +162,7 @@ class SceneBuilder {
   std::map<std::string, Material, std::less<>> materials_;
   TextureTable textures_;
   std::vector<PendingSurface> surfaces_;
-  std::vector<std::vector<PendingSurface>> objects_;
+  std::vector<PendingObject> objects_;
   std::map<std::string, size_t, std::less<>> objects_by_name_;
   bool is_in_object_ = false;
   std::vector<PendingInstance> instances_;

@@ -65,12 +65,24 @@ std::vector<Surface> SceneBuilder::resolved(std::vector<PendingSurface> pending)
   return surfaces;
 }
 
+Transform SceneBuilder::placed(const PendingInstance& instance,
+                               const PendingObject& object) {
+  const Transform scene_from_object =
+      Transform::translate(-origin_) * instance.ctm * Transform::translate(object.origin);
+  try {
+    check_transform(scene_from_object, instance.where);
+  } catch (const Failure& failure) {
+    reporter_.error(failure.where, failure.message);
+  }
+  return scene_from_object;
+}
+
 std::vector<ObjectInstance> SceneBuilder::resolved_instances() {
   std::vector<ObjectInstance> instances;
   for (const PendingInstance& instance : instances_) {
     const auto found = objects_by_name_.find(instance.object);
     if (found != objects_by_name_.end())
-      instances.push_back({found->second, instance.world_from_object});
+      instances.push_back({found->second, placed(instance, objects_[found->second])});
     else
       miss("object", instance.object, objects_by_name_, instance.where);
   }
@@ -99,10 +111,11 @@ LoadedScene SceneBuilder::finish(Span end) {
   check_complete(end);
   LoadedScene loaded;
   SceneDescription& scene = loaded.scene;
+  scene.world_origin = origin_;
   scene.camera_medium = medium_index(camera_media_.outside, camera_media_.where);
   scene.surfaces = resolved(std::move(surfaces_));
-  for (std::vector<PendingSurface>& object : objects_)
-    scene.objects.push_back(resolved(std::move(object)));
+  for (PendingObject& object : objects_)
+    scene.objects.push_back(resolved(std::move(object.surfaces)));
   scene.instances = resolved_instances();
   scene.media = std::move(media_);
   scene.lights = std::move(lights_);

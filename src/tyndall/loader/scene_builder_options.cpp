@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 
 #include "tyndall/integrators/nearest_name.h"
 #include "tyndall/loader/numbers.h"
@@ -78,6 +79,14 @@ void SceneBuilder::option(const std::string& name, const std::string& value) {
   if (std::find(option_names.begin(), option_names.end(), key) == option_names.end())
     fail(directive_,
          fmt::format("there is no option \"{}\"{}", name, did_you_mean(key, option_names)));
+  if (key == "rendercoordsys") {
+    if (value != "camera" && value != "cameraworld" && value != "world")
+      fail(directive_, fmt::format("Option \"rendercoordsys\" must be \"cameraworld\", "
+                                   "\"camera\" or \"world\", got \"{}\"",
+                                   value));
+    coordinates_ = value;
+    return;
+  }
   if (key != "seed") {
     reporter_.unsupported(directive_, fmt::format("Option \"{}\" is ignored", name));
     return;
@@ -88,9 +97,29 @@ void SceneBuilder::option(const std::string& name, const std::string& value) {
   settings_.seed = static_cast<uint64_t>(static_cast<uint32_t>(seed));
 }
 
+// Floats are finest about the camera. "camera" turns the axes as well in pbrt-v4, which
+// makes no number finer.
+Vec3d SceneBuilder::chosen_origin() const {
+  if (wanted_origin_) return *wanted_origin_;
+  if (!camera_ || coordinates_ == "world") return {};
+  const Vec3d eye = camera_->settings.world_from_camera.precise_point({});
+  return std::isfinite(length(eye)) ? eye : Vec3d{};
+}
+
+// Only the camera and media can have been made already.
+void SceneBuilder::put_origin_at(Vec3d p) {
+  origin_ = p;
+  if (camera_) {
+    Transform& world_from_camera = camera_->settings.world_from_camera;
+    world_from_camera = Transform::translate(-p) * world_from_camera;
+  }
+  for (Medium& medium : media_) medium.move(-p);
+}
+
 void SceneBuilder::world_begin() {
   is_in_world_ = true;
   world_begin_ = directive_;
+  put_origin_at(chosen_origin());
   state_.ctm = Transform();
   state_.moves_start = true;
   coordinate_systems_["world"] = Transform();

@@ -13,7 +13,7 @@ namespace tyndall::loader {
 void SceneBuilder::make_named_medium(const std::string& name, ParameterSet parameters) {
   if (!media_by_name_.emplace(name, no_medium).second)
     fail(directive_, fmt::format("there is already a medium named \"{}\"", name));
-  std::optional<Medium> medium = make_medium(parameters, state_.ctm, files_);
+  std::optional<Medium> medium = make_medium(parameters, from_here(origin_), files_);
   parameters.report_unknown();
   if (!medium) return;
   media_by_name_[name] = static_cast<int>(media_.size());
@@ -56,7 +56,7 @@ void SceneBuilder::texture(const std::string& name, const std::string& kind,
 }
 
 void SceneBuilder::light_source(const std::string& type, ParameterSet parameters) {
-  std::optional<Light> light = make_light(type, parameters, state_.ctm, files_);
+  std::optional<Light> light = make_light(type, parameters, from_here(origin_), files_);
   parameters.report_unknown();
   if (light) lights_.push_back(std::move(*light));
 }
@@ -67,12 +67,13 @@ void SceneBuilder::area_light_source(const std::string& type, ParameterSet param
 }
 
 std::vector<SceneBuilder::PendingSurface>& SceneBuilder::target_surfaces() {
-  return is_in_object_ ? objects_.back() : surfaces_;
+  return is_in_object_ ? objects_.back().surfaces : surfaces_;
 }
 
 void SceneBuilder::shape(const std::string& type, ParameterSet parameters) {
-  std::optional<Shape> shape =
-      make_shape(type, parameters, state_.ctm, state_.reverse_orientation, files_);
+  std::optional<Shape> shape = make_shape(
+      type, parameters, from_here(is_in_object_ ? objects_.back().origin : origin_),
+      state_.reverse_orientation, files_);
   // As in pbrt-v4, no ray meets what has no alpha, but its light still shines.
   const float alpha = textures_.number(parameters, "alpha", 1, {0, 1});
   parameters.report_unknown();

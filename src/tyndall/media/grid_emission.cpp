@@ -19,6 +19,13 @@ std::optional<EmissionLookup::Field> EmissionLookup::make_field(
   return Field{placed->grid, GridSpace(world_from_grid.inverse()), placed->box};
 }
 
+EmissionLookup EmissionLookup::moved(Vec3d by) const {
+  EmissionLookup result = *this;
+  for (std::optional<Field>* field : {&result.scale_, &result.temperature_})
+    if (*field) (*field)->space = (*field)->space.moved(by);
+  return result;
+}
+
 float EmissionLookup::Field::operator()(Vec3 p) const {
   const Vec3 p_grid = space.point(p);
   return box.contains(p_grid) ? grid->interpolate(p_grid) : 0;

@@ -28,6 +28,8 @@ class EmissionLookup {
  public:
   EmissionLookup(const GridEmission& emission, const Transform& world_from_medium);
 
+  EmissionLookup moved(Vec3d by) const;  ///< in the world
+
   /// The factor of Le at a point of world space.
   Rgb factor(Vec3 p) const;
   size_t memory() const;  ///< of the grids [bytes]

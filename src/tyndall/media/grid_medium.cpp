@@ -44,6 +44,13 @@ GridMedium::GridMedium(const DensityGrid& density, const Bounds3& bounds,
     : GridMedium(place_in_box(density, bounds), world_from_medium, properties,
                  std::move(phase)) {}
 
+void GridMedium::move(Vec3d by) {
+  world_from_grid_ = Transform::translate(by) * world_from_grid_;
+  space_ = space_.moved(by);
+  if (!box_.is_empty()) world_bounds_ = world_from_grid_.bounds(box_);
+  if (emission_) emission_ = std::make_shared<EmissionLookup>(emission_->moved(by));
+}
+
 void GridMedium::Segments::look_closer(const CellWalk::Step& step) {
   const Vec3i bricks = medium_->density_->brick_count();
   constexpr int edge = BrickGrid::edge;

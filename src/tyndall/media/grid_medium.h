@@ -104,6 +104,7 @@ class GridMedium {
   bool is_grey() const {
     return tyndall::is_grey(properties_.sigma_a) && tyndall::is_grey(properties_.sigma_s);
   }
+  void move(Vec3d by);  ///< in the world
   const PhaseFunction& phase() const { return phase_; }
   /// Whether there are densities so large that they were reduced: to an optical depth of
   /// 1e12 from one sample to the next. Nothing is seen of that, but walks end.

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "tyndall/geometry/ray.h"
+#include "tyndall/math/vec3d.h"
 #include "tyndall/media/medium_properties.h"
 #include "tyndall/media/phase_function.h"
 
@@ -43,6 +44,7 @@ class HomogeneousMedium {
   bool is_grey() const {
     return tyndall::is_grey(properties_.sigma_a) && tyndall::is_grey(properties_.sigma_s);
   }
+  void move(Vec3d /*by*/) {}
   size_t memory() const { return 0; }
   const PhaseFunction& phase() const { return phase_; }
 

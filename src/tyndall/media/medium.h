@@ -16,13 +16,14 @@
 namespace tyndall {
 
 /// A participating medium: properties at a point, and a piecewise constant majorant along a
-/// ray. Tracking is not its business; see media/tracking.h. Immutable, safe to share
-/// between threads.
+/// ray. Tracking is not its business; see media/tracking.h. Once it is where it belongs it
+/// does not change, and is safe to share between threads.
 ///
 /// Every medium type M of the set provides
 ///   MediumProperties at(Vec3 p) const;                     p in world space
 ///   M::Segments segments(Ray ray, float t_max) const;      world space, in order, disjoint
 ///   bool is_emissive() const;  bool is_grey() const;       grey: all channels equal
+///   void move(Vec3d by);                                   to elsewhere in the world
 ///   size_t memory() const;                                 of its grids [bytes]
 ///   const PhaseFunction& phase() const;
 /// Segments has  bool next(MediumSegment&)  that yields segments until it returns false;
@@ -41,6 +42,10 @@ class Medium {
     return std::visit(std::forward<F>(f), medium_);
   }
 
+  /// Moves the medium in world space.
+  void move(Vec3d by) {
+    std::visit([&](auto& m) { m.move(by); }, medium_);
+  }
   MediumProperties at(Vec3 p) const {
     return visit([&](const auto& m) { return m.at(p); });
   }

@@ -193,8 +193,8 @@ BrickGrid::Prepare leaf_reader(GridImage& image, const BrickLayout& layout) {
 Matrix4 medium_from_voxel(const nanovdb::Map& map) {
   Matrix4 m{};
   for (size_t i = 0; i < 3; ++i) {
-    for (size_t j = 0; j < 3; ++j) m[i][j] = static_cast<float>(map.mMatD[3 * i + j]);
-    m[i][3] = static_cast<float>(map.mVecD[i]);
+    for (size_t j = 0; j < 3; ++j) m[i][j] = map.mMatD[3 * i + j];
+    m[i][3] = map.mVecD[i];
   }
   m[3][3] = 1;
   return m;

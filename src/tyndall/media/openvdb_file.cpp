@@ -157,7 +157,7 @@ Matrix4 medium_from_voxel(const openvdb::GridBase& grid) {
   Matrix4 m{};
   for (int i = 0; i < 4; ++i)
     for (int j = 0; j < 4; ++j)
-      m[static_cast<size_t>(i)][static_cast<size_t>(j)] = static_cast<float>(map(j, i));
+      m[static_cast<size_t>(i)][static_cast<size_t>(j)] = map(j, i);
   return m;
 }
 

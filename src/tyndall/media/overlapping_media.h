@@ -61,6 +61,9 @@ class OverlappingMedia {
     float t_ = 0;
   };
 
+  void move(Vec3d by) {
+    for (SingleMedium& part : parts_) std::visit([&](auto& m) { m.move(by); }, part);
+  }
   MediumProperties at(Vec3 p) const;
   Segments segments(const Ray& ray, float t_max) const { return {*this, ray, t_max}; }
   bool is_emissive() const;

@@ -9,18 +9,14 @@ namespace {
 // Cell centre x of [0, n] is the sample x + 1/2 of the grid, whose sample 0 is a border of
 // zeros.
 std::optional<Transform> grid_from_medium(const Bounds3& bounds, Vec3i resolution) {
-  const Vec3 size = bounds.diagonal();
-  if (!(size.x > 0 && size.y > 0 && size.z > 0) || !is_finite(size)) return std::nullopt;
-  const Vec3 n{static_cast<float>(resolution.x), static_cast<float>(resolution.y),
-               static_cast<float>(resolution.z)};
-  const Vec3 scale{n.x / size.x, n.y / size.y, n.z / size.z};
-  Matrix4 m{};
-  for (int i = 0; i < 3; ++i) {
-    m[static_cast<size_t>(i)][static_cast<size_t>(i)] = scale[i];
-    m[static_cast<size_t>(i)][3] = 0.5f - bounds.min[i] * scale[i];
-  }
-  m[3][3] = 1;
-  return Transform::from_matrix(m);
+  const Vec3 rounded = bounds.diagonal();
+  if (!(min_component(rounded) > 0) || !is_finite(rounded)) return std::nullopt;
+  const Vec3d size = Vec3d(bounds.max) - bounds.min;
+  const Transform map = Transform::translate({0.5, 0.5, 0.5}) *
+                        Transform::scale({resolution.x / size.x, resolution.y / size.y,
+                                          resolution.z / size.z}) *
+                        Transform::translate(-Vec3d(bounds.min));
+  return map.fits_in_floats() ? std::optional(map) : std::nullopt;
 }
 
 }  // namespace

@@ -59,4 +59,10 @@ RgbGridMedium::RgbGridMedium(const Grids& grids, const Bounds3& bounds,
   if (!box_.is_empty()) world_bounds_ = world_from_grid_.bounds(box_);
 }
 
+void RgbGridMedium::move(Vec3d by) {
+  world_from_grid_ = Transform::translate(by) * world_from_grid_;
+  space_ = space_.moved(by);
+  if (!box_.is_empty()) world_bounds_ = world_from_grid_.bounds(box_);
+}
+
 }  // namespace tyndall

@@ -90,6 +90,7 @@ class RgbGridMedium {
   Segments segments(const Ray& ray, float t_max) const { return {*this, ray, t_max}; }
   bool is_emissive() const { return Le_ != nullptr; }
   bool is_grey() const { return false; }
+  void move(Vec3d by);  ///< in the world
   const PhaseFunction& phase() const { return phase_; }
   size_t memory() const {
     return sigma_t_->memory() + sigma_s_->memory() + (Le_ ? Le_->memory() : 0) +

@@ -53,9 +53,9 @@ PlacedGrid place_bricks(const BrickLayout& layout, const Matrix4& medium_from_vo
   PlacedGrid placed{.grid = std::make_shared<BrickGrid>(
                         layout.brick_count, source, BrickGrid::Precision::compact, prepare),
                     .medium_from_grid =
-                        *map * Transform::translate({static_cast<float>(layout.origin.x),
-                                                     static_cast<float>(layout.origin.y),
-                                                     static_cast<float>(layout.origin.z)}),
+                        *map * Transform::translate({static_cast<double>(layout.origin.x),
+                                                     static_cast<double>(layout.origin.y),
+                                                     static_cast<double>(layout.origin.z)}),
                     .box = layout.box};
   if (placed.grid->is_empty()) placed.box = {};
   return placed;

@@ -56,6 +56,10 @@ struct ObjectInstance {
 
 /// Everything that a Scene is built from: plain values, filled by hand or by a loader.
 struct SceneDescription {
+  /// Where the origin of all coordinates here lies in the world of whoever asks for
+  /// pictures [scene units]. Floats are finest around the origin: loaders put it at the
+  /// camera, and what is said of places to the outside adds it.
+  Vec3d world_origin;
   PerspectiveCamera camera;
   int camera_medium = no_medium;  ///< used where tracing from the camera cannot tell
   std::vector<Medium> media;
