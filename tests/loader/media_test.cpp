@@ -135,6 +135,15 @@ TEST(LoadUniformGridTest, WarnsOfWhatCountsAsZero) {
             (Messages{large, empty}));
 }
 
+TEST(LoadRgbGridTest, WarnsOfReducedCoefficients) {
+  EXPECT_EQ(warnings_of("\"rgbgrid\" \"rgb sigma_s\" [1 1e10 1]"),
+            std::vector<std::string>{});
+  EXPECT_EQ(warnings_of("\"rgbgrid\" \"rgb sigma_s\" [1 1e29 1]"),
+            std::vector<std::string>{
+                "MakeNamedMedium \"m\": some densities are reduced: from one sample to the "
+                "next they would make an optical depth of more than 1e12"});
+}
+
 // x runs fastest, then y, then z.
 TEST(LoadUniformGridTest, OrderOfValues) {
   const Medium medium = medium_of(

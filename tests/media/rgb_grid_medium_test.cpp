@@ -105,5 +105,89 @@ TEST_F(RgbGridTest, TransmittanceIsUnbiased) {
   }
 }
 
+// One red sample is so large that walks by its bound all over the cell would not end.
+class HugeSampleTest : public testing::TestWithParam<float> {
+ protected:
+  static constexpr Vec3i n{8, 8, 8};
+  const Bounds3 box_{{-1, -1, -1}, {1, 1, 1}};
+  // Sample 200 is the first of its row, at (-7/8, -5/8, -1/8).
+  RgbGrid sigma_s_{n, std::vector<Rgb>(512, Rgb(1))};
+  const RgbGrid sigma_a_{n, std::vector<Rgb>(512, Rgb(0.1f))};
+
+  RgbGridMedium medium() {
+    sigma_s_.values[200].r = GetParam();
+    return {{.sigma_a = sigma_a_, .sigma_s = sigma_s_, .Le = {}},
+            box_,
+            Transform(),
+            1,
+            1,
+            IsotropicPhase{}};
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(All, HugeSampleTest, testing::Values(1e8f, 1e29f));
+
+// Past it, through cells that it shares, and into it.
+TEST_P(HugeSampleTest, TransmittanceIsUnbiased) {
+  const Medium medium(this->medium());
+  for (const float y : {-0.2f, -0.6f}) {
+    const Ray ray{{-2, y, -0.2f}, {1, 0, 0}};
+    double exact[3];
+    for (int c = 0; c < 3; ++c)
+      exact[c] = std::exp(-reference_optical_depth(sum_of_channel(sigma_a_, sigma_s_, c, 1),
+                                                   box_, Transform(), ray, 4));
+    for (const TransmittanceMethod method :
+         {TransmittanceMethod::ratio_tracking,
+          TransmittanceMethod::residual_ratio_tracking}) {
+      RandomStream rng(hash(8, y < -0.5f, method));
+      RunningMoments error[3];
+      for (int i = 0; i < 20'000; ++i) {
+        const Rgb T = estimate_transmittance(medium, ray, 4, rng, method);
+        for (int c = 0; c < 3; ++c) error[c].add(double{T[c]} - exact[c]);
+      }
+      for (const RunningMoments& e : error)
+        EXPECT_NEAR(e.mean(), 0, 5 * e.standard_error() + 1e-6);
+    }
+  }
+}
+
+TEST_P(HugeSampleTest, MajorantsHoldAndAreCloseToOne) {
+  const RgbGridMedium medium = this->medium();
+  RandomStream rng(9);
+  float lowest = infinity;
+  for (int i = 0; i < 400; ++i) {
+    const Ray ray = random_ray(rng, all_ray_starts[i % 4], box_, Transform());
+    auto segments = medium.segments(ray, infinity);
+    MediumSegment s;
+    while (segments.next(s)) {
+      // All of a stretch through the corner of a cell is near its ends.
+      if (s.t_max - s.t_min < 1e-3f) continue;
+      const Vec3 middle = ray.at(0.5f * (s.t_min + s.t_max));
+      if (distance(middle, {-0.875f, -0.625f, -0.125f}) < 0.6f)
+        lowest = std::min(lowest, s.majorant.r);
+      for (int k = 1; k < 20; ++k) {
+        const float t = std::lerp(s.t_min, s.t_max, static_cast<float>(k) / 20);
+        ASSERT_LE(segments.sigma_t_anywhere(t).r, s.majorant.r * 1.0001f + 1e-4f);
+        ASSERT_LE(segments.sigma_t_anywhere(t).g, s.majorant.g * 1.0001f + 1e-4f);
+      }
+    }
+  }
+  EXPECT_LT(lowest, 1.2f);
+}
+
+// To an optical depth of 1e12 from one sample to the next, a quarter apart.
+TEST_P(HugeSampleTest, IsReducedInProportion) {
+  sigma_s_.values[201].r = 1e30f;
+  RgbGrid sigma_a = sigma_a_;
+  sigma_a.values[201].r = 1e30f;
+  const RgbGridMedium medium({.sigma_a = sigma_a, .sigma_s = sigma_s_, .Le = {}}, box_,
+                             Transform(), 1, 1, IsotropicPhase{});
+  EXPECT_TRUE(medium.is_reduced());
+  const MediumProperties at = medium.at({-0.625f, -0.625f, -0.125f});
+  EXPECT_NEAR(at.sigma_t().r, 4e12f, 1e-4f * 4e12f);
+  EXPECT_NEAR(at.sigma_s.r, 2e12f, 1e-4f * 2e12f);
+  EXPECT_FLOAT_EQ(at.sigma_s.g, 1);
+}
+
 }  // namespace
 }  // namespace tyndall

@@ -88,7 +88,7 @@ std::optional<Medium> make_uniform_grid(const MediumContext& in) {
   const PlacedGrid placed = place_in_box(*density, box);
   warn_if_empty(p, "density", placed);
   const GridMedium medium(placed, in.world_from_medium, properties, phase, emission);
-  warn_of_reduced(p, "density", medium);
+  warn_of_reduced(p, "density", medium.is_reduced());
   return Medium(medium);
 }
 
@@ -108,7 +108,9 @@ std::optional<Medium> make_rgb_grid(const MediumContext& in) {
                              .sigma_s = read_rgb_grid(p, "sigma_s", n),
                              .Le = read_rgb_grid(p, "Le", n)};
   if (!grids.sigma_a && !grids.sigma_s) return std::nullopt;
-  return Medium(RgbGridMedium(grids, box, in.world_from_medium, scale, Le_scale, phase));
+  const RgbGridMedium medium(grids, box, in.world_from_medium, scale, Le_scale, phase);
+  warn_of_reduced(p, grids.sigma_a ? "sigma_a" : "sigma_s", medium.is_reduced());
+  return Medium(medium);
 }
 
 }  // namespace tyndall::loader

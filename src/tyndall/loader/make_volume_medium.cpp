@@ -100,7 +100,7 @@ std::optional<Medium> make_volume(const MediumContext& in) {
   if (emission.temperature) properties.Le = Rgb(1);
   properties.Le *= Le_scale;
   const GridMedium medium(*density, in.world_from_medium, properties, phase, emission);
-  warn_of_reduced(p, "filename", medium);
+  warn_of_reduced(p, "filename", medium.is_reduced());
   return Medium(medium);
 }
 

@@ -110,8 +110,8 @@ void warn_if_empty(const ParameterSet& parameters, std::string_view name,
 }
 
 void warn_of_reduced(const ParameterSet& parameters, std::string_view name,
-                     const GridMedium& medium) {
-  if (!medium.is_reduced()) return;
+                     bool is_reduced) {
+  if (!is_reduced) return;
   parameters.warning(name,
                      "some densities are reduced: from one sample to the next they would "
                      "make an optical depth of more than 1e12");

@@ -49,9 +49,9 @@ void warn_of_rejected(const ParameterSet& parameters, std::string_view name,
 void warn_if_empty(const ParameterSet& parameters, std::string_view name,
                    const PlacedGrid& density);
 
-/// Reports a medium with GridMedium::is_reduced().
+/// Reports a medium whose densities were reduced: GridMedium::is_reduced().
 void warn_of_reduced(const ParameterSet& parameters, std::string_view name,
-                     const GridMedium& medium);
+                     bool is_reduced);
 
 /// How a temperature becomes a color: black body at (temperature - offset) * scale [K].
 struct TemperatureScale {

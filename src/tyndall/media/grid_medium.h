@@ -3,16 +3,15 @@
 
 #include <algorithm>
 #include <memory>
-#include <optional>
 
-#include "tyndall/geometry/cell_walk.h"
 #include "tyndall/geometry/grid_space.h"
 #include "tyndall/geometry/ray.h"
 #include "tyndall/math/bounds.h"
 #include "tyndall/math/transform.h"
 #include "tyndall/media/brick_grid.h"
+#include "tyndall/media/density_bounds.h"
 #include "tyndall/media/grid_emission.h"
-#include "tyndall/media/majorant_grid.h"
+#include "tyndall/media/grid_walk.h"
 #include "tyndall/media/medium_properties.h"
 #include "tyndall/media/phase_function.h"
 #include "tyndall/media/placed_grid.h"
@@ -33,34 +32,21 @@ class GridMedium {
              const Transform& world_from_medium, const MediumProperties& properties,
              PhaseFunction phase);
 
-  /// DDA over a coarse grid of majorants and means, empty cells skipped.
+  /// DDA over majorants and means, empty cells skipped.
   class Segments {
    public:
     Segments(const GridMedium& medium, const Ray& ray, float t_max)
-        : medium_(&medium), world_ray_(ray) {
-      const auto clip = medium.space_.clip(ray, t_max, medium.box_);
-      if (!clip) return;
-      ray_ = clip->ray;
-      t_offset_ = clip->t_offset;
-      walk_ = medium.majorants_->walk(ray_, clip->length);
-    }
+        : medium_(&medium),
+          world_ray_(ray),
+          walk_(*medium.bounds_, medium.space_.clip(ray, t_max, medium.box_)) {}
 
-    bool next(MediumSegment& segment) {
-      if (among_samples_) [[unlikely]]
-        if (next_among_samples(segment)) return true;
-      CellWalk::Step step;
-      while (walk_.next(step)) {
-        const MajorantCell& cell = medium_->majorants_->cell(step.cell);
-        if (cell.majorant == 0) continue;
-        if (medium_->is_rough(cell, step.t_max - step.t_min)) [[unlikely]] {
-          look_closer(step);
-          if (next_among_samples(segment)) return true;
-          continue;
-        }
-        take(cell, step, segment);
-        return true;
-      }
-      return false;
+    [[gnu::always_inline]] bool next(MediumSegment& segment) {
+      GridWalk<1>::Stretch stretch;
+      if (!walk_.next(stretch)) return false;
+      majorant_ = stretch.cell[0].majorant;
+      segment = {stretch.t_min, stretch.t_max, medium_->sigma_t_ * majorant_,
+                 medium_->sigma_t_ * stretch.cell[0].mean};
+      return true;
     }
 
     /// The medium at a distance in the last segment; never above its majorant.
@@ -76,24 +62,12 @@ class GridMedium {
     float density(float t) const { return std::min(unbounded(t), medium_->largest_); }
 
    private:
-    float unbounded(float t) const { return medium_->density(ray_.at(t - t_offset_)); }
-    void take(const MajorantCell& cell, const CellWalk::Step& step,
-              MediumSegment& segment) {
-      majorant_ = std::min(cell.majorant, medium_->largest_);
-      segment = {t_offset_ + step.t_min, t_offset_ + step.t_max,
-                 medium_->sigma_t_ * majorant_,
-                 medium_->sigma_t_ * std::min(cell.mean, majorant_)};
-    }
-    void look_closer(const CellWalk::Step& step);
-    bool next_among_samples(MediumSegment& segment);
+    float unbounded(float t) const { return medium_->density(walk_.p_grid(t)); }
 
     const GridMedium* medium_;
     Ray world_ray_;
-    GridRay ray_;
-    float t_offset_ = 0;
     float majorant_ = 0;  // of the density in the last segment
-    CellWalk walk_;
-    std::optional<CellWalk> among_samples_;  // on the way through a rough cell
+    GridWalk<1> walk_;
   };
 
   MediumProperties at(Vec3 p) const {
@@ -110,8 +84,7 @@ class GridMedium {
   /// 1e12 from one sample to the next. Nothing is seen of that, but walks end.
   bool is_reduced() const { return density_->maximum() > largest_; }
   size_t memory() const {
-    return density_->memory() + majorants_->memory() +
-           (emission_ ? emission_->memory() : 0);
+    return density_->memory() + bounds_->memory() + (emission_ ? emission_->memory() : 0);
   }
   /// Of the box; empty if the medium is.
   Bounds3 world_bounds() const { return world_bounds_; }
@@ -123,12 +96,6 @@ class GridMedium {
   float density(Vec3 p_grid) const {
     return box_.contains(p_grid) ? density_->interpolate(p_grid) : 0;
   }
-  /// Whether a ray over this length of the cell would meet its majorant so often, and
-  /// mostly in vain, that bounds of their own for all samples are worth finding.
-  bool is_rough(const MajorantCell& cell, float length) const {
-    constexpr float in_vain = 8;
-    return cell.majorant * length > rough_ && cell.majorant > in_vain * cell.mean;
-  }
   MediumProperties properties(float density, Vec3 p) const {
     const bool varies = emission_ && density > 0;
     return {properties_.sigma_a * density, properties_.sigma_s * density,
@@ -136,7 +103,7 @@ class GridMedium {
   }
 
   std::shared_ptr<const BrickGrid> density_;
-  std::shared_ptr<const MajorantGrid> majorants_;
+  std::shared_ptr<const DensityBounds<1>> bounds_;
   std::shared_ptr<const EmissionLookup> emission_;  // null if constant
   Transform world_from_grid_;
   GridSpace space_;
@@ -144,8 +111,7 @@ class GridMedium {
   Bounds3 world_bounds_;
   MediumProperties properties_;
   Rgb sigma_t_;
-  float largest_ = infinity;
-  float rough_ = infinity;  // densities times lengths from which cells may be rough
+  float largest_;  // density that is met
   PhaseFunction phase_;
 };
 

@@ -19,7 +19,7 @@ int choose_edge(Vec3i bricks) {
 
 }  // namespace
 
-MajorantGrid::MajorantGrid(const BrickGrid& density) {
+MajorantGrid::MajorantGrid(const BrickGrid& density, float largest) {
   const Vec3i bricks = density.brick_count();
   const Vec3i samples{bricks.x * BrickGrid::edge, bricks.y * BrickGrid::edge,
                       bricks.z * BrickGrid::edge};
@@ -33,11 +33,10 @@ MajorantGrid::MajorantGrid(const BrickGrid& density) {
     const int z = static_cast<int>(row) / resolution_.y;
     for (int x = 0; x < resolution_.x; ++x) {
       const Vec3i first{x * edge, y * edge, z * edge};
-      const BrickGrid::Range range = density.range(
-          first, {std::min(first.x + edge, samples.x), std::min(first.y + edge, samples.y),
-                  std::min(first.z + edge, samples.z)});
-      // A few rounding errors of the interpolation.
-      cells_[index({x, y, z})] = {range.max * (1 + 1e-6f), range.mean};
+      const Vec3i last{std::min(first.x + edge, samples.x),
+                       std::min(first.y + edge, samples.y),
+                       std::min(first.z + edge, samples.z)};
+      cells_[index({x, y, z})] = MajorantCell::of(density.range(first, last), largest);
     }
   };
   parallel_for(static_cast<size_t>(resolution_.y) * static_cast<size_t>(resolution_.z),

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
 #include "tyndall/geometry/cell_walk.h"
+#include "tyndall/math/constants.h"
 #include "tyndall/math/vec.h"
 #include "tyndall/media/brick_grid.h"
 
@@ -14,6 +16,13 @@ namespace tyndall {
 struct MajorantCell {
   float majorant = 0;  ///< >= the interpolant everywhere in the cell
   float mean = 0;      ///< of the interpolant; positive if `majorant` is
+
+  /// For a density of which nothing above `largest` is met.
+  static MajorantCell of(const BrickGrid::Range& range, float largest) {
+    constexpr float rounding = 1e-6f;  // a few errors of the interpolation
+    const float majorant = std::min(range.max * (1 + rounding), largest);
+    return {majorant, std::min(range.mean, majorant)};
+  }
 };
 
 /// Majorants and means of a BrickGrid on coarse cells, aligned with its samples, so that
@@ -24,8 +33,8 @@ class MajorantGrid {
   static constexpr int max_resolution = 32;
 
   MajorantGrid() = default;
-  /// Built in parallel.
-  explicit MajorantGrid(const BrickGrid& density);
+  /// Of a density of which nothing above `largest` is met. Built in parallel.
+  explicit MajorantGrid(const BrickGrid& density, float largest = infinity);
 
   Vec3i resolution() const { return resolution_; }
   float cell_edge() const { return edge_; }  ///< [samples]

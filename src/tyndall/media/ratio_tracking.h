@@ -116,7 +116,8 @@ template <typename M>
 Rgb residual_ratio_tracking(const M& medium, const Ray& ray, float t_max,
                             RandomStream& rng) {
   if (medium.is_grey())
-    return Rgb(grey_ratio_tracking(medium, ray, t_max, rng, control_extinction));
+    return Rgb(grey_ratio_tracking(medium, ray, t_max, rng,
+                                   [](auto... s) { return control_extinction(s...); }));
   auto segments = medium.segments(ray, t_max);
   MediumSegment s;
   float remaining = sample_optical_depth(rng);
@@ -129,11 +130,12 @@ Rgb residual_ratio_tracking(const M& medium, const Ray& ray, float t_max,
     product *= exp(-1 * optical_depth(control, length));
     product = play_roulette(product, rng);
     if (is_black(product)) return product;
-    // |sigma_t - control| is at most this, so that no factor leaves [0, 2].
-    const float residual = std::max(largest_alive(s.majorant - control, product),
-                                    largest_alive(control, product));
     SegmentPosition position(s);
     while (true) {
+      // |sigma_t - control| is at most this, so that no factor of a live channel leaves
+      // [0, 2].
+      const float residual = std::max(largest_alive(s.majorant - control, product),
+                                      largest_alive(control, product));
       const float depth = residual * position.rest();
       if (remaining >= depth) {
         remaining -= depth;
@@ -142,6 +144,8 @@ Rgb residual_ratio_tracking(const M& medium, const Ray& ray, float t_max,
       position.advance(remaining / residual);
       product *=
           clamp_negative(Rgb(1) - (segments.sigma_t(position.t()) - control) / residual);
+      product = play_roulette(product, rng);
+      if (is_black(product)) return product;
       remaining = sample_optical_depth(rng);
     }
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tyndall/media/rgb_grid_medium.h"
 
+#include <algorithm>
 #include <cassert>
 #include <utility>
 
@@ -14,11 +15,31 @@ RgbGrid scaled(RgbGrid grid, float scale) {
   return grid;
 }
 
-RgbGrid sum(RgbGrid a, const RgbGrid& b) {
-  assert(a.resolution == b.resolution);
-  for (size_t i = 0; i < a.values.size(); ++i) a.values[i] += b.values[i];
-  return a;
-}
+// Coefficients that are multiplied by `scale` and, where they are above `largest` together,
+// reduced to that in proportion. What is too large for a BrickGrid counts as zero.
+struct Coefficients {
+  RgbGrid sigma_t, sigma_s;
+  bool is_reduced = false;
+
+  Coefficients(const RgbGrid& sigma_a, const RgbGrid& given_sigma_s, float scale,
+               float largest)
+      : sigma_t(given_sigma_s), sigma_s(given_sigma_s) {
+    assert(sigma_a.resolution == sigma_s.resolution);
+    for (size_t i = 0; i < sigma_s.values.size(); ++i)
+      for (int c = 0; c < 3; ++c) {
+        const double a = usable(sigma_a.values[i][c]), s = usable(sigma_s.values[i][c]);
+        const double sum = (a + s) * double{scale};
+        const bool is_large = sum > double{largest};
+        const double factor = is_large ? double{largest} / (a + s) : double{scale};
+        is_reduced |= is_large;
+        sigma_s.values[i][c] = static_cast<float>(s * factor);
+        sigma_t.values[i][c] = static_cast<float>((a + s) * factor);
+      }
+  }
+
+ private:
+  static double usable(float x) { return x <= BrickGrid::largest ? double{x} : 0; }
+};
 
 DensityGrid channel(const RgbGrid& grid, int c) {
   DensityGrid values{grid.resolution, {}};
@@ -42,14 +63,6 @@ RgbGridMedium::RgbGridMedium(const Grids& grids, const Bounds3& bounds,
   assert(grids.sigma_a || grids.sigma_s);
   const RgbGrid& given = grids.sigma_a ? *grids.sigma_a : *grids.sigma_s;
   const RgbGrid one{given.resolution, std::vector<Rgb>(given.values.size(), Rgb(1))};
-  const RgbGrid sigma_a = scaled(grids.sigma_a.value_or(one), scale);
-  const RgbGrid sigma_s = scaled(grids.sigma_s.value_or(one), scale);
-  sigma_t_ = make_field(sum(sigma_a, sigma_s));
-  sigma_s_ = make_field(sigma_s);
-  if (grids.Le && Le_scale > 0) Le_ = make_field(scaled(*grids.Le, Le_scale));
-  majorants_ = std::make_shared<Majorants>(Majorants{
-      MajorantGrid(sigma_t_->r), MajorantGrid(sigma_t_->g), MajorantGrid(sigma_t_->b)});
-
   // Only for its transform and box: where the samples lie is the same for all of them.
   const DensityGrid ones{given.resolution, std::vector<float>(given.values.size(), 1)};
   const PlacedGrid placed = place_in_box(ones, bounds);
@@ -57,6 +70,16 @@ RgbGridMedium::RgbGridMedium(const Grids& grids, const Bounds3& bounds,
   space_ = GridSpace(world_from_grid_.inverse());
   box_ = placed.box;
   if (!box_.is_empty()) world_bounds_ = world_from_grid_.bounds(box_);
+
+  const float largest = std::min(opaque_density(1, world_from_grid_), BrickGrid::largest);
+  const Coefficients sigma(grids.sigma_a.value_or(one), grids.sigma_s.value_or(one), scale,
+                           largest);
+  is_reduced_ = sigma.is_reduced;
+  sigma_t_ = make_field(sigma.sigma_t);
+  sigma_s_ = make_field(sigma.sigma_s);
+  if (grids.Le && Le_scale > 0) Le_ = make_field(scaled(*grids.Le, Le_scale));
+  bounds_ = std::make_shared<DensityBounds<3>>(
+      DensityBounds<3>::Densities{&sigma_t_->r, &sigma_t_->g, &sigma_t_->b}, 1.0f, largest);
 }
 
 void RgbGridMedium::move(Vec3d by) {

@@ -7,14 +7,14 @@
 #include <optional>
 #include <vector>
 
-#include "tyndall/geometry/cell_walk.h"
 #include "tyndall/geometry/grid_space.h"
 #include "tyndall/geometry/ray.h"
 #include "tyndall/math/bounds.h"
 #include "tyndall/math/rgb.h"
 #include "tyndall/math/transform.h"
 #include "tyndall/media/brick_grid.h"
-#include "tyndall/media/majorant_grid.h"
+#include "tyndall/media/density_bounds.h"
+#include "tyndall/media/grid_walk.h"
 #include "tyndall/media/medium_properties.h"
 #include "tyndall/media/phase_function.h"
 
@@ -45,45 +45,31 @@ class RgbGridMedium {
   /// DDA over the channels' majorants and means, empty cells skipped.
   class Segments {
    public:
-    Segments(const RgbGridMedium& medium, const Ray& ray, float t_max) : medium_(&medium) {
-      const auto clip = medium.space_.clip(ray, t_max, medium.box_);
-      if (!clip) return;
-      ray_ = clip->ray;
-      t_offset_ = clip->t_offset;
-      walk_ = medium.majorants_->r.walk(ray_, clip->length);
-    }
+    Segments(const RgbGridMedium& medium, const Ray& ray, float t_max)
+        : medium_(&medium),
+          walk_(*medium.bounds_, medium.space_.clip(ray, t_max, medium.box_)) {}
 
     bool next(MediumSegment& segment) {
-      CellWalk::Step step;
-      while (walk_.next(step)) {
-        const MajorantCell& r = medium_->majorants_->r.cell(step.cell);
-        const MajorantCell& g = medium_->majorants_->g.cell(step.cell);
-        const MajorantCell& b = medium_->majorants_->b.cell(step.cell);
-        majorant_ = {r.majorant, g.majorant, b.majorant};
-        if (is_black(majorant_)) continue;
-        segment = {t_offset_ + step.t_min,
-                   t_offset_ + step.t_max,
-                   majorant_,
-                   {r.mean, g.mean, b.mean}};
-        return true;
-      }
-      return false;
+      GridWalk<3>::Stretch stretch;
+      if (!walk_.next(stretch)) return false;
+      const auto& [r, g, b] = stretch.cell;
+      majorant_ = {r.majorant, g.majorant, b.majorant};
+      segment = {stretch.t_min, stretch.t_max, majorant_, {r.mean, g.mean, b.mean}};
+      return true;
     }
 
     /// The medium at a distance in the last segment; never above its majorant.
     MediumProperties at(float t) const {
-      return medium_->properties(ray_.at(t - t_offset_), majorant_);
+      return medium_->properties(walk_.p_grid(t), majorant_);
     }
     Rgb sigma_t(float t) const { return min(sigma_t_anywhere(t), majorant_); }
     /// Extinction at any distance along the ray, in any order.
-    Rgb sigma_t_anywhere(float t) const { return medium_->sigma_t(ray_.at(t - t_offset_)); }
+    Rgb sigma_t_anywhere(float t) const { return medium_->sigma_t(walk_.p_grid(t)); }
 
    private:
     const RgbGridMedium* medium_;
-    GridRay ray_;
-    float t_offset_ = 0;
     Rgb majorant_;
-    CellWalk walk_;
+    GridWalk<3> walk_;
   };
 
   MediumProperties at(Vec3 p) const { return properties(space_.point(p), Rgb(infinity)); }
@@ -92,9 +78,12 @@ class RgbGridMedium {
   bool is_grey() const { return false; }
   void move(Vec3d by);  ///< in the world
   const PhaseFunction& phase() const { return phase_; }
+  /// Whether there are coefficients so large that they were reduced, as those of
+  /// GridMedium::is_reduced().
+  bool is_reduced() const { return is_reduced_; }
   size_t memory() const {
     return sigma_t_->memory() + sigma_s_->memory() + (Le_ ? Le_->memory() : 0) +
-           majorants_->r.memory() + majorants_->g.memory() + majorants_->b.memory();
+           bounds_->memory();
   }
   Bounds3 world_bounds() const { return world_bounds_; }
   /// Where the medium is, in the space of its samples; empty if it is nowhere.
@@ -102,9 +91,6 @@ class RgbGridMedium {
   const Transform& world_from_grid() const { return world_from_grid_; }
 
  private:
-  struct Majorants {
-    MajorantGrid r, g, b;
-  };
   // One sparse grid per channel.
   struct Field {
     BrickGrid r, g, b;
@@ -131,7 +117,8 @@ class RgbGridMedium {
 
   std::shared_ptr<const Field> sigma_t_, sigma_s_;
   std::shared_ptr<const Field> Le_;  // null if dark
-  std::shared_ptr<const Majorants> majorants_;
+  std::shared_ptr<const DensityBounds<3>> bounds_;
+  bool is_reduced_ = false;
   Transform world_from_grid_;
   GridSpace space_;
   Bounds3 box_;  // in grid space
