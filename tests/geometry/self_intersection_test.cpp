@@ -9,6 +9,10 @@
 #include "tests/geometry/test_shapes.h"
 #include "tyndall/geometry/intersector.h"
 
+#ifdef __SSE2__
+#include <xmmintrin.h>
+#endif
+
 namespace tyndall {
 namespace {
 
@@ -129,6 +133,37 @@ TEST(SelfIntersection, NeverHappensAtTheOrigin) {
       }
     }
 }
+
+#ifdef __SSE2__
+// As Embree advises its users to set it for all of their program.
+class DenormalsAsZero {
+ public:
+  DenormalsAsZero() : before_(_mm_getcsr()) { _mm_setcsr(before_ | 0x8040); }
+  ~DenormalsAsZero() { _mm_setcsr(before_); }
+  DenormalsAsZero(const DenormalsAsZero&) = delete;
+  DenormalsAsZero& operator=(const DenormalsAsZero&) = delete;
+
+ private:
+  unsigned before_;
+};
+
+// Behind a hit at distance zero it goes on at the next number, which must not be zero
+// again.
+TEST(SelfIntersection, EndsWhereDenormalNumbersAreZero) {
+  const Shape floor = TriangleMesh({{-3, 0, -3}, {3, 0, -3}, {3, 0, 3}, {-3, 0, 3}},
+                                   {{0, 1, 2}, {0, 2, 3}}, {}, {}, false);
+  const std::vector<Intersector::Group> groups{{{&floor, false}}};
+  const Intersector intersector(groups, {});
+  const DenormalsAsZero mode;
+  RandomStream random(9);
+  for (int i = 0; i < 10000; ++i) {
+    const Vec3 p{4 * random.next_1d() - 2, 0, 4 * random.next_1d() - 2};
+    const Vec3 d = at_cosine({0, 1, 0}, random.next_1d(), random);
+    EXPECT_FALSE(
+        intersector.intersect({offset_origin(p, {0, 1, 0}, d), d}, infinity, RayMask::all));
+  }
+}
+#endif
 
 struct Leaks {
   int rays = 0, through_edges = 0, through_vertices = 0;

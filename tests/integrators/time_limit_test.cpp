@@ -63,7 +63,7 @@ TEST_P(TimeLimitTest, IsKeptAmidAPass) {
         render(scene, settings_of(resolution, GetParam()), within(0.5, threads));
     EXPECT_TRUE(result.statistics.stopped_early);
     EXPECT_GE(result.statistics.seconds, 0.5);
-    EXPECT_LT(result.statistics.seconds, 1);
+    EXPECT_LT(result.statistics.seconds, 2);
   }
 }
 
@@ -136,7 +136,7 @@ TEST(TimeLimit, StoppingDoesNotWaitForThePass) {
   const RenderSettings s = settings_of(resolution, "volpath");
   const RenderResult result = render(scene, s, options);
   EXPECT_TRUE(result.statistics.stopped_early);
-  EXPECT_LT(result.statistics.seconds, stopped_at + 0.75);
+  EXPECT_LT(result.statistics.seconds, stopped_at + 1.5);
   EXPECT_GT(result.statistics.unsampled_pixels, 0);
   const Image image = result.film.develop();
   // In all parts of the picture.

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <new>
 #include <stdexcept>
 #include <type_traits>
@@ -316,8 +317,10 @@ class Intersector::Impl {
       if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
       if (auto hit = finish_hit(context, query)) return hit;
       if (crossings) drop_beyond(*crossings, query.ray.tfar);  // they will be found again
-      // It was a triangle at an end of the ray: go on behind it.
-      query.ray.tnear = std::nextafter(query.ray.tfar, infinity);
+      // It was a triangle at an end of the ray: go on behind it, by a number that is not
+      // zero either where the processor takes denormal ones for it.
+      constexpr float smallest = std::numeric_limits<float>::min();
+      query.ray.tnear = std::max(std::nextafter(query.ray.tfar, infinity), smallest);
       query.ray.tfar = t_max;
       query.hit = no_hit();
       if (!(query.ray.tnear < t_max)) return std::nullopt;
