@@ -89,8 +89,8 @@ class Affine {
   /// The map of floats().
   Affine rounded() const {
     Affine result = *this;
-    for (size_t i = 0; i < 12; ++i)
-      result.m_[i / 4][i % 4] = static_cast<double>(floats()[i]);
+    for (auto& row : result.m_)
+      for (double& x : row) x = static_cast<double>(static_cast<float>(x));
     return result;
   }
 

@@ -16,6 +16,11 @@ inline constexpr float far_distance = 1e30f;
 /// rounding of the length itself, and by rounded_end().
 inline constexpr float shadow_shortening = 1e-6f;
 
+/// How far a ray towards a sample of a light is followed to find what hides it.
+inline float shadow_length(const LightSample& sample) {
+  return sample.distance * (1 - shadow_shortening) - sample.rounded_end;
+}
+
 /// The straight way of light from a vertex to the first surface that is not a mere
 /// boundary, cut into spans of one medium each. Traced once somebody asks.
 class Leg {

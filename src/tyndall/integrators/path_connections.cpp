@@ -91,7 +91,7 @@ Rgb Path::arriving(const SelectedLight& selected, const LightSample& sample,
     Leg leg(scene_, shadow, medium);
     return glow_along(leg, tracking_);
   }
-  const float t_max = sample.distance * (1 - shadow_shortening) - sample.rounded_end;
+  const float t_max = shadow_length(sample);
   if (!rules_.sees_through && scene_.is_occluded(shadow, t_max)) return Rgb();
   return sample.L * transmittance(scene_, shadow, std::min(sample.distance, far_distance),
                                   medium, tracking_);

@@ -20,7 +20,7 @@ namespace tyndall {
 namespace {
 
 constexpr double progress_interval = 0.1;  // [s]
-// A pass is the least that a stopped render finishes: keep it short.
+// A pass that is stopped leaves pixels with different numbers of samples: keep it short.
 constexpr double target_pass_seconds = 1.0;
 constexpr uint32_t max_pass_growth = 2;
 // A pass may take so many times as long as the one before lets expect.

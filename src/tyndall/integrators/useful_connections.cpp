@@ -24,9 +24,7 @@ constexpr size_t max_probes = 4096;
 
 bool is_hidden(const Scene& scene, Vec3 p, const Light& light, Vec2 u) {
   const std::optional<LightSample> sample = light.sample(p, u);
-  if (!sample) return false;
-  const float t_max = sample->distance * (1 - shadow_shortening) - sample->rounded_end;
-  return scene.is_occluded({p, sample->wi}, t_max);
+  return sample && scene.is_occluded({p, sample->wi}, shadow_length(*sample));
 }
 
 // The share of the light that surfaces hide from where it matters for the picture; empty if
