@@ -124,24 +124,24 @@ TEST(LoadUniformGridTest, WarnsOfWhatCountsAsZero) {
       "MakeNamedMedium \"m\": the density is zero everywhere: an empty medium";
   EXPECT_EQ(warnings_of("\"uniformgrid\" \"integer nx\" 2 \"float density\" [1 3e38]"),
             Messages{large});
-  EXPECT_EQ(warnings_of("\"uniformgrid\" \"integer nx\" 2 \"float density\" [1 1e10]"),
+  EXPECT_EQ(warnings_of("\"uniformgrid\" \"integer nx\" 2 \"float density\" [1 1e5]"),
             Messages{});
   EXPECT_EQ(
       warnings_of("\"uniformgrid\" \"integer nx\" 2 \"float density\" [1 1e30]"),
       Messages{"MakeNamedMedium \"m\": some densities are reduced: from one sample to "
-               "the next they would make an optical depth of more than 1e12"});
+               "the next they would make an optical depth of more than 1e6"});
   EXPECT_EQ(warnings_of("\"uniformgrid\" \"float density\" 0"), Messages{empty});
   EXPECT_EQ(warnings_of("\"uniformgrid\" \"float density\" 1e31"),
             (Messages{large, empty}));
 }
 
 TEST(LoadRgbGridTest, WarnsOfReducedCoefficients) {
-  EXPECT_EQ(warnings_of("\"rgbgrid\" \"rgb sigma_s\" [1 1e10 1]"),
+  EXPECT_EQ(warnings_of("\"rgbgrid\" \"rgb sigma_s\" [1 1e5 1]"),
             std::vector<std::string>{});
   EXPECT_EQ(warnings_of("\"rgbgrid\" \"rgb sigma_s\" [1 1e29 1]"),
             std::vector<std::string>{
                 "MakeNamedMedium \"m\": some densities are reduced: from one sample to the "
-                "next they would make an optical depth of more than 1e12"});
+                "next they would make an optical depth of more than 1e6"});
 }
 
 // x runs fastest, then y, then z.

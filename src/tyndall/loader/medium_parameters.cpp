@@ -114,7 +114,7 @@ void warn_of_reduced(const ParameterSet& parameters, std::string_view name,
   if (!is_reduced) return;
   parameters.warning(name,
                      "some densities are reduced: from one sample to the next they would "
-                     "make an optical depth of more than 1e12");
+                     "make an optical depth of more than 1e6");
 }
 
 TemperatureScale read_temperature_scale(ParameterSet& parameters) {

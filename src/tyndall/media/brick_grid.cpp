@@ -188,7 +188,7 @@ BrickGrid BrickGrid::from_dense(const DensityGrid& dense) {
   return BrickGrid({n.x / edge + 1, n.y / edge + 1, n.z / edge + 1}, source);
 }
 
-BrickGrid::Range BrickGrid::range(Vec3i first, Vec3i last) const {
+BrickGrid::Range BrickGrid::range(Vec3i first, Vec3i last, float cap) const {
   Range range;
   double sum = 0;
   for (int bz = first.z / edge; bz * edge < last.z; ++bz)
@@ -208,7 +208,7 @@ BrickGrid::Range BrickGrid::range(Vec3i first, Vec3i last) const {
               const double weight = (x == a.x || x == b.x ? 0.5 : 1) *
                                     (y == a.y || y == b.y ? 0.5 : 1) *
                                     (z == a.z || z == b.z ? 0.5 : 1);
-              const float value = sample(brick, (z * side + y) * side + x);
+              const float value = std::min(sample(brick, (z * side + y) * side + x), cap);
               range.max = std::max(range.max, value);
               sum += weight * double{value};
             }

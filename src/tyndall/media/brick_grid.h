@@ -87,9 +87,10 @@ class BrickGrid {
     float max = 0;
     float mean = 0;  ///< positive if max is
   };
-  /// Over the box between the samples `first` and `last`, up to rounding.
+  /// Over the box between the samples `first` and `last`, up to rounding; samples above
+  /// `cap` count as that.
   /// Precondition: 0 <= first < last <= 8 brick_count() per component.
-  Range range(Vec3i first, Vec3i last) const;
+  Range range(Vec3i first, Vec3i last, float cap) const;
 
   Vec3i brick_count() const { return brick_count_; }
   /// The positive samples lie in [first(), last()]; first() > last() if there are none.

@@ -13,7 +13,7 @@ Vec3i sample_count(const BrickGrid& density) {
 }  // namespace
 
 float opaque_density(float sigma_t, const Transform& world_from_grid) {
-  constexpr float opaque = 1e12f;
+  constexpr float opaque = 1e6f;
   const float unit_depth = sigma_t * std::min({length(world_from_grid.vector({1, 0, 0})),
                                                length(world_from_grid.vector({0, 1, 0})),
                                                length(world_from_grid.vector({0, 0, 1}))});
@@ -44,8 +44,8 @@ auto DensityBounds<channels>::cell_between_samples(size_t index) const -> Cell {
                     static_cast<int>(index / (row * column))};
   Cell found;
   for (size_t c = 0; c < channels; ++c)
-    found[c] = MajorantCell::of(
-        densities_[c]->range(first, {first.x + 1, first.y + 1, first.z + 1}), largest_);
+    found[c] = MajorantCell::of(*densities_[c], first,
+                                {first.x + 1, first.y + 1, first.z + 1}, largest_);
   return found;
 }
 

@@ -15,7 +15,7 @@
 
 namespace tyndall {
 
-/// The density that makes an optical depth of 1e12 on the shortest way from one sample to
+/// The density that makes an optical depth of 1e6 on the shortest way from one sample to
 /// the next; `sigma_t` is the extinction of density one [1/scene unit]. Larger ones look no
 /// different, but walks through them do not end. Infinite if `sigma_t` is zero.
 float opaque_density(float sigma_t, const Transform& world_from_grid);

@@ -81,7 +81,7 @@ class GridMedium {
   void move(Vec3d by);  ///< in the world
   const PhaseFunction& phase() const { return phase_; }
   /// Whether there are densities so large that they were reduced: to an optical depth of
-  /// 1e12 from one sample to the next. Nothing is seen of that, but walks end.
+  /// 1e6 from one sample to the next. Nothing is seen of that, but walks end.
   bool is_reduced() const { return density_->maximum() > largest_; }
   size_t memory() const {
     return density_->memory() + bounds_->memory() + (emission_ ? emission_->memory() : 0);

@@ -36,7 +36,7 @@ MajorantGrid::MajorantGrid(const BrickGrid& density, float largest) {
       const Vec3i last{std::min(first.x + edge, samples.x),
                        std::min(first.y + edge, samples.y),
                        std::min(first.z + edge, samples.z)};
-      cells_[index({x, y, z})] = MajorantCell::of(density.range(first, last), largest);
+      cells_[index({x, y, z})] = MajorantCell::of(density, first, last, largest);
     }
   };
   parallel_for(static_cast<size_t>(resolution_.y) * static_cast<size_t>(resolution_.z),

@@ -17,9 +17,10 @@ struct MajorantCell {
   float majorant = 0;  ///< >= the interpolant everywhere in the cell
   float mean = 0;      ///< of the interpolant; positive if `majorant` is
 
-  /// For a density of which nothing above `largest` is met.
-  static MajorantCell of(const BrickGrid::Range& range, float largest) {
+  /// Between two samples of a density of which nothing above `largest` is met.
+  static MajorantCell of(const BrickGrid& density, Vec3i first, Vec3i last, float largest) {
     constexpr float rounding = 1e-6f;  // a few errors of the interpolation
+    const BrickGrid::Range range = density.range(first, last, largest);
     const float majorant = std::min(range.max * (1 + rounding), largest);
     return {majorant, std::min(range.mean, majorant)};
   }
