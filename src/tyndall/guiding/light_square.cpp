@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tyndall/math/constants.h"
+#include "tyndall/math/elementary.h"
 
 namespace tyndall {
 
@@ -16,7 +17,8 @@ constexpr float inv_pi3 = inv_pi * inv_pi * inv_pi;
 
 /// A point of the unit disk; `inner` = 1 - radius^2 without cancellation near the rim.
 struct DiskPoint {
-  float radius, inner, phi;
+  float radius, inner;
+  float cos_phi = 1, sin_phi = 0;
 };
 
 DiskPoint disk_from_square(Vec2 p) {
@@ -24,21 +26,27 @@ DiskPoint disk_from_square(Vec2 p) {
   const float edge = 2 * std::min({p.x, 1 - p.x, p.y, 1 - p.y});  // 1 - radius, exact
   const float radius = 1 - edge;
   const float inner = std::max(edge * (1 + radius), 0.0f);
-  if (a == 0 && b == 0) return {0, 1, 0};
-  if (std::abs(a) > std::abs(b))
-    return {radius, inner, (a < 0 ? pi : 0) + 0.25f * pi * (b / a)};
-  return {radius, inner, (b < 0 ? 1.5f : 0.5f) * pi - 0.25f * pi * (a / b)};
+  if (a == 0 && b == 0) return {0, 1};
+  const bool is_wide = std::abs(a) > std::abs(b);
+  const float turn = 0.25f * pi * (is_wide ? b / a : a / b), square = sqr(turn);
+  const float major = std::copysign(cosine_by_square(square), is_wide ? a : b);
+  const float minor = std::copysign(turn * sine_over(square), is_wide ? b : a);
+  return is_wide ? DiskPoint{radius, inner, major, minor}
+                 : DiskPoint{radius, inner, minor, major};
 }
+
+// Of x in [-1, 1].
+float arc_tangent(float x) { return x * arc_tangent_over(std::abs(x)); }
 
 // `edge` is 1 - radius.
 Vec2 square_from_disk(float radius, float edge, float x, float y) {
   const float sector = 4 * inv_pi;
   Vec2 p;
   if (std::abs(x) > std::abs(y)) {
-    const float minor = 0.5f * radius * std::atan(y / x) * sector;
+    const float minor = 0.5f * radius * arc_tangent(y / x) * sector;
     p = x > 0 ? Vec2{1 - 0.5f * edge, 0.5f + minor} : Vec2{0.5f * edge, 0.5f - minor};
   } else if (y != 0) {
-    const float minor = 0.5f * radius * std::atan(x / y) * sector;
+    const float minor = 0.5f * radius * arc_tangent(x / y) * sector;
     p = y > 0 ? Vec2{0.5f + minor, 1 - 0.5f * edge} : Vec2{0.5f - minor, 0.5f * edge};
   } else {
     p = {0.5f + 0.5f * radius, 0.5f};
@@ -51,8 +59,18 @@ float joint_density(float back, float sine) {
   return inv_pi3 * (back < 1e-3f ? 1 : back / std::max(sine, least_sine));
 }
 
-// The angle between w = (., ., cosine) and -z.
-float back_angle(float sine, float cosine) { return std::atan2(sine, -cosine); }
+// The angles of w = (., ., cosine) from z and from -z.
+struct PolarAngle {
+  float theta, back;
+
+  PolarAngle(float sine, float cosine) {
+    const float run = std::abs(cosine), large = std::max(run, sine);
+    const float arc = large > 0 ? arc_tangent(std::min(run, sine) / large) : 0;
+    const float acute = sine > run ? 0.5f * pi - arc : arc;
+    theta = by_sign(cosine, acute, pi - acute);
+    back = by_sign(cosine, pi - acute, acute);
+  }
+};
 
 }  // namespace
 
@@ -68,12 +86,12 @@ SquareDirection LightSquare::direction(Vec2 p) const {
     // radius^2 = 1 - (1 - theta / pi)^2; each branch takes the angle that is exact there.
     const float back = pi * root;
     const float theta = pi * sqr(disk.radius) / (1 + root);
-    sine = theta < back ? std::sin(theta) : std::sin(back);
-    cosine = theta < back ? std::cos(theta) : -std::cos(back);
+    const float acute = std::min(theta, back), square = sqr(acute);
+    sine = acute * sine_over(square);
+    cosine = std::copysign(cosine_by_square(square), back - theta);
     density = joint_density(back, sine);
   }
-  return {frame_.to_world({sine * std::cos(disk.phi), sine * std::sin(disk.phi), cosine}),
-          density};
+  return {frame_.to_world({sine * disk.cos_phi, sine * disk.sin_phi, cosine}), density};
 }
 
 SquarePoint LightSquare::point(Vec3 w) const {
@@ -87,11 +105,10 @@ SquarePoint LightSquare::point(Vec3 w) const {
     inner = v.z > 0 ? 1 - small : small;
     density = inv_4pi;
   } else {
-    const float back = back_angle(sine, v.z);
-    const float theta = v.z > 0 ? std::atan2(sine, v.z) : pi - back;
-    inner = sqr(back * inv_pi);
-    squared_radius = theta * inv_pi * (1 + back * inv_pi);
-    density = joint_density(back, sine);
+    const PolarAngle angle(sine, v.z);
+    inner = sqr(angle.back * inv_pi);
+    squared_radius = angle.theta * inv_pi * (1 + angle.back * inv_pi);
+    density = joint_density(angle.back, sine);
   }
   const float radius = std::sqrt(std::clamp(squared_radius, 0.0f, 1.0f));
   return {square_from_disk(radius, inner / (1 + radius), v.x, v.y), density};
@@ -101,7 +118,7 @@ float LightSquare::density(Vec3 w) const {
   if (measure_ == SquareMeasure::solid_angle) return inv_4pi;
   const Vec3 v = frame_.to_local(w);
   const float sine = std::sqrt(v.x * v.x + v.y * v.y);
-  return joint_density(back_angle(sine, v.z), sine);
+  return joint_density(PolarAngle(sine, v.z).back, sine);
 }
 
 Frame turned_frame(const Frame& reference, Vec3 axis) {
