@@ -23,7 +23,7 @@ struct ConvertArguments {
   std::optional<std::string> split;
   bool false_color = false;
   std::optional<ValueRange> range;
-  WriteOptions write;
+  WriteOptions write{.threads = 0};
 };
 
 ValueRange parse_range(const std::string& text) {

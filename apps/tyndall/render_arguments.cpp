@@ -180,6 +180,7 @@ void apply(const RenderArguments& a, RenderSettings& settings) {
 WriteOptions write_options(const RenderArguments& a) {
   WriteOptions options;
   options.half = wants_half(a);
+  options.threads = a.threads;
   options.tone.dither = true;
   options.tone.exposure = a.exposure;
   options.tone.curve = a.tone == "filmic" ? ToneCurve::filmic : ToneCurve::plain;

@@ -53,6 +53,17 @@ TEST(ExrTest, FloatKeepsEveryBitOfEveryLayer) {
   }
 }
 
+TEST(ExrTest, ThreadsWriteTheSameBytes) {
+  const TemporaryFolder folder;
+  const Image image = layered(300, 200);
+  write_image(image, folder.file("one.exr"), {.threads = 1});
+  for (const int threads : {0, 2, 7}) {
+    write_image(image, folder.file("many.exr"), {.threads = threads});
+    EXPECT_EQ(read_whole_file(folder.file("many.exr")),
+              read_whole_file(folder.file("one.exr")));
+  }
+}
+
 TEST(ExrTest, HalfRoundsColourAndKeepsDepthCountAndVariance) {
   const TemporaryFolder folder;
   const Image image = layered(37, 19);

@@ -13,7 +13,8 @@
 namespace tyndall {
 
 Image decode_exr(std::string_view bytes);
-std::string encode_exr(const Image& image, bool half);
+/// `threads` as in WriteOptions.
+std::string encode_exr(const Image& image, bool half, int threads);
 
 /// 8-bit samples are decoded from sRGB, 16-bit ones as the file says; alpha is "A",
 /// straight.

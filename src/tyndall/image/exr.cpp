@@ -14,7 +14,9 @@
 #include <OpenEXR/ImfRgbaFile.h>
 #include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfStringAttribute.h>
+#include <OpenEXR/ImfThreading.h>
 #include <fmt/format.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
@@ -226,6 +228,14 @@ Imf::Header make_header(const Image& image, bool use_half) {
   return header;
 }
 
+/// The argument of Imf::OutputFile for so many threads; its pool has at least as many.
+int threads_of_pool(int threads) {
+  if (threads == 0) threads = tbb::this_task_arena::max_concurrency();
+  if (threads == 1) return 0;  // the caller's own
+  if (Imf::globalThreadCount() < threads) Imf::setGlobalThreadCount(threads);
+  return threads;
+}
+
 }  // namespace
 
 Image decode_exr(std::string_view bytes) {
@@ -246,7 +256,7 @@ Image decode_exr(std::string_view bytes) {
   return image;
 }
 
-std::string encode_exr(const Image& image, bool use_half) {
+std::string encode_exr(const Image& image, bool use_half, int threads) {
   const Imf::Header header = make_header(image, use_half);
   const Imath::Box2i& window = header.dataWindow();
   const auto width = static_cast<size_t>(image.width());
@@ -270,7 +280,7 @@ std::string encode_exr(const Image& image, bool use_half) {
   }
   MemoryOutput output;
   {
-    Imf::OutputFile file(output, header);
+    Imf::OutputFile file(output, header, threads_of_pool(threads));
     file.setFrameBuffer(buffer);
     file.writePixels(image.height());
   }

@@ -52,7 +52,7 @@ std::string encode(const Image& image, Format format, const WriteOptions& option
   }
   switch (format) {
     case Format::exr:
-      return encode_exr(image, options.half);
+      return encode_exr(image, options.half, options.threads);
     case Format::hdr:
       return encode_hdr(image);
     case Format::pfm:

@@ -9,7 +9,11 @@
 namespace tyndall {
 
 struct WriteOptions {
-  bool half = false;      ///< EXR: 16-bit channels (depth, spp and variance stay float)
+  bool half = false;  ///< EXR: 16-bit channels (depth, spp and variance stay float)
+  /// EXR: how many threads compress; 0: as many as the caller's oneTBB arena has. The bytes
+  /// are the same. Other than one gives OpenEXR's pool, which the whole process shares, as
+  /// many threads if it has fewer; then no other image may be read or written meanwhile.
+  int threads = 1;
   ToneMapping tone = {};  ///< PNG
 };
 
