@@ -64,16 +64,13 @@ struct DenseField {
 class DenseMedium {
  public:
   DenseMedium(const GridMedium& medium, const DenseField& field, float sigma)
-      : medium_(medium),
-        field_(field),
-        sigma_(sigma),
-        space_(medium.world_from_grid().inverse()) {}
+      : medium_(medium), field_(field), sigma_(sigma) {}
 
   class Segments {
    public:
     Segments(const DenseMedium& medium, const Ray& ray, float t_max)
         : medium_(medium), segments_(medium.medium_.segments(ray, t_max)) {
-      const auto clip = medium.space_.clip(ray, t_max, medium.medium_.grid_box());
+      const auto clip = medium.medium_.placement().clip(ray, t_max);
       if (!clip) return;
       ray_ = clip->ray;
       t_offset_ = clip->t_offset;
@@ -97,7 +94,6 @@ class DenseMedium {
   const GridMedium& medium_;
   const DenseField& field_;
   float sigma_;
-  GridSpace space_;
 };
 
 GridMedium make_medium(const PlacedGrid& grid, float sigma) {
@@ -132,11 +128,11 @@ PlacedGrid refined(const PlacedGrid& grid) {
 std::vector<Ray> rays_from_inside(const GridMedium& medium) {
   RandomStream rng(5);
   std::vector<Ray> rays;
-  const Bounds3 box = medium.grid_box();
+  const Bounds3 box = medium.placement().box();
   while (rays.size() < ray_count) {
     const Vec3 u{rng.next_1d(), rng.next_1d(), rng.next_1d()};
     const float cos_theta = 2 * rng.next_1d() - 1;
-    const Ray ray{medium.world_from_grid().point(box.min + box.diagonal() * u),
+    const Ray ray{medium.placement().world_from_grid().point(box.min + box.diagonal() * u),
                   spherical_direction(cos_theta, 2 * pi * rng.next_1d())};
     if (medium.at(ray.o).sigma_s.r > 0) rays.push_back(ray);
   }

@@ -29,7 +29,7 @@ LAYERS = {
 
 # Library: (pattern of its headers, folders that may include it, most .cpp files that do).
 LIBRARIES = {
-    "Embree": (r"embree\d*/", {"geometry"}, 1),
+    "Embree": (r"embree\d*/", {"geometry"}, 2),
     "oneTBB": (r"(one)?api/tbb|tbb/", {"math", "image", "integrators"}, 4),
     "OpenEXR": (r"Imf|Iex|Imath|OpenEXR/|half\.h", {"image"}, 2),
     "libpng": (r"png\.h", {"image"}, 1),

@@ -52,10 +52,15 @@ class SceneInfo(ProgramTest):
 
 @unittest.skipUnless(VDB.exists(), "no ../shared")
 class VolumeInfo(ProgramTest):
-    def describe(self, *names):
-        result = self.run_program("info", "--json", *[VDB / name for name in names])
+    def info(self, *arguments):
+        result = self.run_program("info", *arguments)
+        if "TYNDALL_OPENVDB is off" in result.stderr:
+            self.skipTest("no OpenVDB")
         self.assertEqual(result.returncode, 0, result.stderr)
-        return json.loads(result.stdout)
+        return result.stdout
+
+    def describe(self, *names):
+        return json.loads(self.info("--json", *[VDB / name for name in names]))
 
     def test_vdb(self):
         smoke, = self.describe("ovdb_smoke1.vdb")
@@ -86,11 +91,10 @@ class VolumeInfo(ProgramTest):
                          (None, None, 0))
 
     def test_text(self):
-        result = self.run_program("info", VDB / "oiio_sphereCd.vdb", VDB / "arnold_torus01.vdb")
-        self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertIn("vec3s, which cannot be a density or a temperature", result.stdout)
-        self.assertRegex(result.stdout, r'(?m)^  "voxel_fog_density": float$')
-        self.assertRegex(result.stdout, r"(?m)^    voxels    \d+ active in 22 x 9 x 22$")
+        text = self.info(VDB / "oiio_sphereCd.vdb", VDB / "arnold_torus01.vdb")
+        self.assertIn("vec3s, which cannot be a density or a temperature", text)
+        self.assertRegex(text, r'(?m)^  "voxel_fog_density": float$')
+        self.assertRegex(text, r"(?m)^    voxels    \d+ active in 22 x 9 x 22$")
 
 
 if __name__ == "__main__":

@@ -75,6 +75,7 @@ TEST_F(LoadVolumeTest, DensityScalesCoefficients) {
 }
 
 TEST_F(LoadVolumeTest, BothFilesAndBothNamesOfTheTypeAreTheSame) {
+  if (!test::has_openvdb) GTEST_SKIP() << "no OpenVDB";
   const std::vector<test::TestGrid> grids{
       {.voxels = cube(2), .voxel_size = 0.5, .origin = {10, 0, 0}}};
   test::write_nvdb(path(), grids);
@@ -126,6 +127,7 @@ TEST_F(LoadVolumeTest, TemperatureMakesItGlow) {
 }
 
 TEST_F(LoadVolumeTest, TemperatureComesBeforeFlameAndHeat) {
+  if (!test::has_openvdb) GTEST_SKIP() << "no OpenVDB";
   test::write_vdb(path("v.vdb"), {{.name = "heat", .voxels = cube(1)},
                                   {.name = "flame", .voxels = cube(2)},
                                   {.name = "temperature", .voxels = cube(3)},
@@ -176,6 +178,7 @@ TEST_F(LoadVolumeTest, OddDensitiesGetAWarning) {
   EXPECT_EQ(with(std::numeric_limits<float>::quiet_NaN()), no_number);
   test::write_nvdb(path(), {{.voxels = cube(0)}});
   EXPECT_EQ(complaint(""), "the density is zero everywhere: an empty medium");
+  if (!test::has_openvdb) GTEST_SKIP() << "no OpenVDB";
   test::write_vdb(path("v.vdb"), {{.voxels = {}}});
   EXPECT_EQ(complaint("", "v.vdb"), "the density is zero everywhere: an empty medium");
 }
@@ -188,6 +191,7 @@ TEST_F(LoadVolumeTest, LevelSetsGetAWarning) {
 }
 
 TEST_F(LoadVolumeTest, GridsWithoutNumbersAreRefused) {
+  if (!test::has_openvdb) GTEST_SKIP() << "no OpenVDB";
   test::write_vdb_without_numbers(path("v.vdb"));
   EXPECT_EQ(complaint("\"string gridname\" \"points\"", "v.vdb"),
             "cannot read v.vdb: grid \"points\" is of type points, a grid of numbers is "

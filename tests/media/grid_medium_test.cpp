@@ -130,8 +130,8 @@ TEST_P(PlacedGridTest, InterpolatesAsDefined) {
   const Transform world_from_medium = random_transform(rng, placement());
   const GridMedium medium = make_medium(grid, world_from_medium);
   const double maximum = double{largest_value(grid)};
-  const double opaque =
-      double{opaque_density(max_component(red.sigma_t()), medium.world_from_grid())};
+  const double opaque = double{
+      opaque_density(max_component(red.sigma_t()), medium.placement().world_from_grid())};
   for (int i = 0; i < 200; ++i) {
     const Vec3 p =
         box.min + box.diagonal() * Vec3{rng.next_1d(), rng.next_1d(), rng.next_1d()};

@@ -93,7 +93,8 @@ class SharedVolumes : public testing::Test {
 TEST_F(SharedVolumes, AllCanBeListedAndTheirNumbersRead) {
   int grids = 0;
   for (const fs::directory_entry& file : fs::directory_iterator(shared / "data/vdb")) {
-    if (file.path().extension() != ".vdb" && file.path().extension() != ".nvdb") continue;
+    const bool is_vdb = file.path().extension() == ".vdb" && test::has_openvdb;
+    if (!is_vdb && file.path().extension() != ".nvdb") continue;
     SCOPED_TRACE(file.path().string());
     for (const VolumeGridInfo& info : list_volume_grids(file.path())) {
       EXPECT_GT(info.memory, 0);
@@ -118,11 +119,12 @@ TEST_F(SharedVolumes, AllCanBeListedAndTheirNumbersRead) {
       ++grids;
     }
   }
-  EXPECT_GT(grids, 8);
+  EXPECT_GT(grids, test::has_openvdb ? 8 : 1);
 }
 
 // The same smoke in both formats.
 TEST_F(SharedVolumes, OpenVdbAndNanoVdbAgree) {
+  if (!test::has_openvdb) GTEST_SKIP() << "no OpenVDB";
   const fs::path folder = shared / "wild/smoke1-openvdb/geometry";
   const PlacedGrid a = read_volume(folder / "smoke1.vdb", density_name);
   const PlacedGrid b = read_volume(folder / "smoke1.nvdb", density_name);
@@ -141,6 +143,7 @@ TEST_F(SharedVolumes, OpenVdbAndNanoVdbAgree) {
 }
 
 TEST_F(SharedVolumes, MissingNamesAreAnsweredWithThoseFound) {
+  if (!test::has_openvdb) GTEST_SKIP() << "no OpenVDB";
   const fs::path path = shared / "data/vdb/usd_densityAndHeat.vdb";
   constexpr std::string_view names[] = {"smoke"};
   try {

@@ -37,9 +37,9 @@ INSTANTIATE_TEST_SUITE_P(All, EmissionDistributionTest,
 // 1 / pdf integrates to the volume of the box, f / pdf to the power, and each point's
 // density is what it was drawn with.
 TEST_P(EmissionDistributionTest, SamplesIntegrateWithTheirPdf) {
-  const Bounds3 box = medium_.grid_box();
+  const Bounds3 box = medium_.placement().box();
   const Vec3 size = box.diagonal();
-  const Transform& map = medium_.world_from_grid();
+  const Transform& map = medium_.placement().world_from_grid();
   const double volume =
       double{size.x * size.y * size.z} *
       std::abs(double{
@@ -68,10 +68,11 @@ TEST_P(EmissionDistributionTest, SamplesIntegrateWithTheirPdf) {
 }
 
 TEST_P(EmissionDistributionTest, IsPositiveWhereverTheMediumGlows) {
-  const Bounds3 box = medium_.grid_box();
+  const Bounds3 box = medium_.placement().box();
   for (int i = 0; i < 10'000; ++i) {
     const Vec3 u{rng_.next_1d(), rng_.next_1d(), rng_.next_1d()};
-    const Vec3 p = medium_.world_from_grid().point(box.min + box.diagonal() * u);
+    const Vec3 p =
+        medium_.placement().world_from_grid().point(box.min + box.diagonal() * u);
     if (medium_.at(p).sigma_a.r == 0) continue;
     EXPECT_GT(distribution_.pdf_volume(p), 0);
   }
@@ -81,10 +82,11 @@ TEST_P(EmissionDistributionTest, IsPositiveWhereverTheMediumGlows) {
 // the sphere and on the whole; the density is not smooth, so that moments are tested rather
 // than cells.
 TEST_P(EmissionDistributionTest, DirectionsFollowTheirPdf) {
-  const Bounds3 box = medium_.grid_box();
+  const Bounds3 box = medium_.placement().box();
   const VolumeLight light({distribution_});
   for (const Vec3 at : {Vec3{0.45f, 0.6f, 0.3f}, Vec3{1.2f, -0.3f, 0.5f}}) {
-    const Vec3 p = medium_.world_from_grid().point(box.min + box.diagonal() * at);
+    const Vec3 p =
+        medium_.placement().world_from_grid().point(box.min + box.diagonal() * at);
     constexpr size_t functions = 12;
     RunningMoments drawn[functions], expected[functions];
     const auto add = [](RunningMoments* moments, Vec3 w, double weight) {

@@ -31,6 +31,8 @@ void write(const std::filesystem::path& path, const openvdb::GridPtrVec& grids) 
 
 }  // namespace
 
+const bool has_openvdb = true;
+
 void write_vdb(const std::filesystem::path& path, const std::vector<TestGrid>& grids) {
   openvdb::initialize();
   openvdb::GridPtrVec made;

@@ -7,6 +7,8 @@
 
 namespace tyndall::test {
 
+const bool has_openvdb = false;
+
 void write_vdb(const std::filesystem::path& /*path*/,
                const std::vector<TestGrid>& /*grids*/) {
   throw std::logic_error("this build has no OpenVDB");

@@ -34,7 +34,10 @@ std::vector<TestVoxel> filled_box(Vec3i first, Vec3i last, float value);
 /// The level set of a ball about the origin, with a band of this half width [voxels].
 TestGrid level_set_of_ball(float radius, float half_width);
 
-/// Writes a .vdb file; throws if the build has no OpenVDB.
+/// Whether the build has OpenVDB. Tests that need .vdb files are skipped if not.
+extern const bool has_openvdb;
+
+/// Writes a .vdb file. Precondition: has_openvdb.
 void write_vdb(const std::filesystem::path& path, const std::vector<TestGrid>& grids);
 /// A .vdb file with a grid of points called "points" and one of vectors called "v".
 void write_vdb_without_numbers(const std::filesystem::path& path);

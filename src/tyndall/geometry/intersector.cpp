@@ -2,7 +2,6 @@
 #include "tyndall/geometry/intersector.h"
 
 #include <embree3/rtcore.h>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cassert>
@@ -11,42 +10,11 @@
 #include <new>
 #include <stdexcept>
 #include <type_traits>
-#include <utility>
 
-#include "tyndall/sampling/random.h"
+#include "tyndall/geometry/embree_scenes.h"
 
 namespace tyndall {
 namespace {
-
-struct Release {
-  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
-  void operator()(RTCGeometry geometry) const { rtcReleaseGeometry(geometry); }
-};
-template <typename T>
-using Handle = std::unique_ptr<std::remove_pointer_t<T>, Release>;
-
-void throw_on_error(RTCDevice device) {
-  switch (const RTCError error = rtcGetDeviceError(device)) {
-    case RTC_ERROR_NONE:
-      return;
-    case RTC_ERROR_OUT_OF_MEMORY:
-      throw std::runtime_error("out of memory while building the ray tracing structures");
-    default:
-      throw std::runtime_error(fmt::format("Embree failed with error {} while building",
-                                           static_cast<int>(error)));
-  }
-}
-
-struct InstanceTable {
-  std::vector<InstanceMaps> maps;  // in the order of their geometry indices
-  uint32_t first = 0;              // geometry index of the first
-
-  // Null in the world.
-  const InstanceMaps* of(uint32_t id) const {
-    return id == RTC_INVALID_GEOMETRY_ID ? nullptr : &maps[id - first];
-  }
-};
 
 PreciseRay precise_ray(const Ray& world_ray, const InstanceMaps* instance) {
   const PreciseRay ray{.o = Vec3d(world_ray.o), .d = Vec3d(world_ray.d)};
@@ -132,11 +100,6 @@ void filter_boundary(const RTCFilterFunctionNArguments* args) {
                 ray);
 }
 
-void find_bounds(const RTCBoundsFunctionArguments* args) {
-  const Bounds3 b = target_of(args->geometryUserPtr).primitive_bounds(args->primID);
-  *args->bounds_o = {b.min.x, b.min.y, b.min.z, 0, b.max.x, b.max.y, b.max.z, 0};
-}
-
 void intersect_user_geometry(const RTCIntersectFunctionNArguments* args) {
   assert(args->N == 1);
   if (!args->valid[0]) return;
@@ -190,45 +153,6 @@ void occlude_user_geometry(const RTCOccludedFunctionNArguments* args) {
     ray.tfar = -infinity;
 }
 
-Handle<RTCGeometry> new_triangles(RTCDevice device, const TargetShape& target,
-                                  bool is_boundary, bool is_instanced) {
-  const TriangleMesh& mesh = *target.mesh();
-  Handle<RTCGeometry> geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
-  void* vertices =
-      rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                              sizeof(Vec3), mesh.positions().size());
-  throw_on_error(device);
-  std::copy(mesh.positions().begin(), mesh.positions().end(), static_cast<Vec3*>(vertices));
-  rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                             mesh.triangles().data(), 0, sizeof(Vec3i),
-                             mesh.triangles().size());
-  // In the world intersect() checks the closest hit itself, which costs less than a
-  // callback for each; an occlusion test does not tell what it hit.
-  const RTCFilterFunctionN drop =
-      target.is_translucent() ? drop_hit_of_translucent : drop_hit_of_ends;
-  rtcSetGeometryOccludedFilterFunction(geometry.get(), drop);
-  if (is_boundary)
-    rtcSetGeometryIntersectFilterFunction(geometry.get(), filter_boundary);
-  else if (is_instanced || target.is_translucent())
-    rtcSetGeometryIntersectFilterFunction(geometry.get(), drop);
-  return geometry;
-}
-
-Handle<RTCGeometry> new_user_geometry(RTCDevice device, size_t primitives,
-                                      bool is_boundary) {
-  Handle<RTCGeometry> geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER));
-  rtcSetGeometryUserPrimitiveCount(geometry.get(), static_cast<unsigned>(primitives));
-  rtcSetGeometryBoundsFunction(geometry.get(), find_bounds, nullptr);
-  rtcSetGeometryIntersectFunction(
-      geometry.get(), is_boundary ? intersect_curved_boundary : intersect_user_geometry);
-  rtcSetGeometryOccludedFunction(geometry.get(), occlude_user_geometry);
-  return geometry;
-}
-
-uint32_t mask_of(const Intersector::Member& member) {
-  return static_cast<uint32_t>(member.is_boundary ? RayMask::boundary : RayMask::opaque);
-}
-
 // Whether a ray that starts outside the box goes away from it. Exact: it misses then.
 bool goes_away_from(const Bounds3& box, const Ray& ray) {
   for (int i = 0; i < 3; ++i)
@@ -236,14 +160,6 @@ bool goes_away_from(const Bounds3& box, const Ray& ray) {
         (ray.o[i] < box.min[i] && ray.d[i] <= 0))
       return true;
   return false;
-}
-
-Bounds3 bounds_of(RTCScene scene) {
-  RTCBounds b;
-  rtcGetSceneBounds(scene, &b);
-  const Bounds3 result{.min = {b.lower_x, b.lower_y, b.lower_z},
-                       .max = {b.upper_x, b.upper_y, b.upper_z}};
-  return result.is_empty() ? Bounds3{} : result;
 }
 
 // Embree takes coordinates up to 1.8e18.
@@ -279,170 +195,75 @@ RTCHit no_hit() {
   return hit;
 }
 
+RayContext new_context(const EmbreeScenes& scenes, const Ray& ray, float t_max,
+                       Crossings* crossings) {
+  RayContext context;
+  rtcInitIntersectContext(&context.embree);
+  context.world_ray = &ray;
+  context.t_max = t_max;
+  context.instances = &scenes.instances();
+  context.crossings = crossings;
+  return context;
+}
+
+// Empty if the hit is of a triangle that the ray starts from or ends on.
+std::optional<RayHit> finish_hit(const EmbreeScenes& scenes, const RayContext& context,
+                                 const RTCRayHit& query) {
+  const auto& [ray, hit] = query;
+  const InstanceMaps* instance = scenes.instances().of(hit.instID[0]);
+  RayHit result{.t = ray.tfar,
+                .group = instance ? instance->group : 0,
+                .shape = hit.geomID,
+                .primitive = hit.primID,
+                .instance = hit.instID[0],
+                .uv = {hit.u, hit.v}};
+  const TargetShape& target = scenes.target(result.group, hit.geomID);
+  if (!target.mesh()) return result;
+  const PreciseRay precise = precise_ray(*context.world_ray, instance);
+  if ((instance || may_be_at_end(target, ray, hit, context.t_max)) &&
+      !target.is_between_ends(hit.primID, precise, context.t_max))
+    return std::nullopt;
+  result.t =
+      static_cast<float>(plane_distance(target.mesh()->triangle(hit.primID), precise));
+  return result;
+}
+
+// Boundaries stop the ray unless `crossings` is given.
+std::optional<RayHit> find_in(const EmbreeScenes& scenes, const Ray& ray, float t_max,
+                              RayMask mask, Crossings* crossings) {
+  if (!can_hit(ray, t_max)) return std::nullopt;
+  const bool boundaries_only = mask == RayMask::boundary;
+  if (boundaries_only && goes_away_from(scenes.boundary_bounds(), ray)) return std::nullopt;
+  const RTCScene scene = boundaries_only ? scenes.boundaries() : scenes.world();
+  RayContext context = new_context(scenes, ray, t_max, crossings);
+  RTCRayHit query{.ray = to_embree(ray, t_max, mask), .hit = no_hit()};
+  for (;;) {
+    rtcIntersect1(scene, &context.embree, &query);
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+    if (auto hit = finish_hit(scenes, context, query)) return hit;
+    if (crossings) drop_beyond(*crossings, query.ray.tfar);  // they will be found again
+    // It was a triangle at an end of the ray: go on behind it, by a number that is not
+    // zero either where the processor takes denormal ones for it.
+    constexpr float smallest = std::numeric_limits<float>::min();
+    query.ray.tnear = std::max(std::nextafter(query.ray.tfar, infinity), smallest);
+    query.ray.tfar = t_max;
+    query.hit = no_hit();
+    if (!(query.ray.tnear < t_max)) return std::nullopt;
+  }
+}
+
 }  // namespace
-
-class Intersector::Impl {
- public:
-  Impl(std::span<const Group> groups, std::span<const Instance> instances)
-      : device_(rtcNewDevice(nullptr)) {
-    throw_on_error(device_.get());
-    boundaries_ = new_scene();
-    if (!rtcGetDeviceProperty(device_.get(), RTC_DEVICE_PROPERTY_RAY_MASK_SUPPORTED) ||
-        !rtcGetDeviceProperty(device_.get(), RTC_DEVICE_PROPERTY_FILTER_FUNCTION_SUPPORTED))
-      throw std::runtime_error("this build of Embree lacks ray masks or filter functions");
-    targets_.resize(groups.size());
-    for (size_t i = 0; i < groups.size(); ++i)
-      scenes_.push_back(new_scene(groups[i], targets_[i], i > 0));
-    if (scenes_.empty()) scenes_.push_back(new_scene({}, targets_.emplace_back(), false));
-    // The world last: its instances need their groups to be complete.
-    for (size_t i = 1; i < scenes_.size(); ++i) rtcCommitScene(scenes_[i].get());
-    add_instances(groups, instances);
-    rtcCommitScene(scenes_[0].get());
-    rtcCommitScene(boundaries_.get());
-    throw_on_error(device_.get());
-    boundary_bounds_ = bounds_of(boundaries_.get());
-  }
-
-  std::optional<RayHit> find(const Ray& ray, float t_max, RayMask mask,
-                             Crossings* crossings) const {
-    if (!can_hit(ray, t_max)) return std::nullopt;
-    const bool boundaries_only = mask == RayMask::boundary;
-    if (boundaries_only && goes_away_from(boundary_bounds_, ray)) return std::nullopt;
-    const RTCScene scene = boundaries_only ? boundaries_.get() : scenes_[0].get();
-    RayContext context = new_context(ray, t_max);
-    context.crossings = crossings;
-    RTCRayHit query{.ray = to_embree(ray, t_max, mask), .hit = no_hit()};
-    for (;;) {
-      rtcIntersect1(scene, &context.embree, &query);
-      if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-      if (auto hit = finish_hit(context, query)) return hit;
-      if (crossings) drop_beyond(*crossings, query.ray.tfar);  // they will be found again
-      // It was a triangle at an end of the ray: go on behind it, by a number that is not
-      // zero either where the processor takes denormal ones for it.
-      constexpr float smallest = std::numeric_limits<float>::min();
-      query.ray.tnear = std::max(std::nextafter(query.ray.tfar, infinity), smallest);
-      query.ray.tfar = t_max;
-      query.hit = no_hit();
-      if (!(query.ray.tnear < t_max)) return std::nullopt;
-    }
-  }
-
-  bool is_occluded(const Ray& ray, float t_max, RayMask mask) const {
-    if (!can_hit(ray, t_max)) return false;
-    RayContext context = new_context(ray, t_max);
-    RTCRay query = to_embree(ray, t_max, mask);
-    rtcOccluded1(scenes_[0].get(), &context.embree, &query);
-    return query.tfar < 0;
-  }
-
-  SceneHit resolve(const Ray& ray, const RayHit& hit) const {
-    const InstanceMaps* instance = instances_.of(hit.instance);
-    return reconstruct(targets_[hit.group][hit.shape], hit, precise_ray(ray, instance),
-                       instance);
-  }
-
-  Bounds3 bounds() const { return bounds_of(scenes_[0].get()); }
-
- private:
-  Handle<RTCScene> new_scene() const {
-    Handle<RTCScene> scene(rtcNewScene(device_.get()));
-    rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
-    return scene;
-  }
-
-  // Fills `targets`, whose addresses Embree keeps.
-  Handle<RTCScene> new_scene(const Group& group, std::vector<TargetShape>& targets,
-                             bool is_instanced) {
-    Handle<RTCScene> scene = new_scene();
-    targets.reserve(group.size());
-    for (size_t i = 0; i < group.size(); ++i) {
-      const bool is_boundary = group[i].is_boundary;
-      TargetShape& target = targets.emplace_back(
-          *group[i].shape, is_boundary ? 1 : group[i].alpha, hash(scenes_.size(), i));
-      const size_t primitives = target.primitive_count();
-      if (primitives == 0) continue;
-      const Handle<RTCGeometry> handle =
-          target.mesh() ? new_triangles(device_.get(), target, is_boundary, is_instanced)
-                        : new_user_geometry(device_.get(), primitives, is_boundary);
-      rtcSetGeometryUserData(handle.get(), &target);
-      rtcSetGeometryMask(handle.get(), mask_of(group[i]));
-      rtcCommitGeometry(handle.get());
-      rtcAttachGeometryByID(scene.get(), handle.get(), static_cast<unsigned>(i));
-      if (is_boundary && !is_instanced)
-        rtcAttachGeometryByID(boundaries_.get(), handle.get(), static_cast<unsigned>(i));
-    }
-    throw_on_error(device_.get());
-    return scene;
-  }
-
-  void add_instances(std::span<const Group> groups, std::span<const Instance> instances) {
-    instances_.first = static_cast<uint32_t>(targets_[0].size());
-    for (size_t i = 0; i < instances.size(); ++i) {
-      const auto& [group, world_from_group] = instances[i];
-      assert(0 < group && group < groups.size());
-      const Affine world = Affine(world_from_group).rounded();  // as Embree keeps it
-      instances_.maps.push_back({group, world, world.inverse()});
-      uint32_t mask = 0;
-      for (const Member& member : groups[group]) mask |= mask_of(member);
-      const Handle<RTCGeometry> handle(
-          rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_INSTANCE));
-      rtcSetGeometryInstancedScene(handle.get(), scenes_[group].get());
-      rtcSetGeometryTransform(handle.get(), 0, RTC_FORMAT_FLOAT3X4_ROW_MAJOR,
-                              world.floats().data());
-      rtcSetGeometryMask(handle.get(), mask);
-      rtcCommitGeometry(handle.get());
-      const uint32_t id = instances_.first + static_cast<uint32_t>(i);
-      rtcAttachGeometryByID(scenes_[0].get(), handle.get(), id);
-      if (mask & static_cast<uint32_t>(RayMask::boundary))
-        rtcAttachGeometryByID(boundaries_.get(), handle.get(), id);
-    }
-  }
-
-  RayContext new_context(const Ray& ray, float t_max) const {
-    RayContext context;
-    rtcInitIntersectContext(&context.embree);
-    context.world_ray = &ray;
-    context.t_max = t_max;
-    context.instances = &instances_;
-    context.crossings = nullptr;
-    return context;
-  }
-
-  // Empty if the hit is of a triangle that the ray starts from or ends on.
-  std::optional<RayHit> finish_hit(const RayContext& context,
-                                   const RTCRayHit& query) const {
-    const auto& [ray, hit] = query;
-    const InstanceMaps* instance = instances_.of(hit.instID[0]);
-    RayHit result{.t = ray.tfar,
-                  .group = instance ? instance->group : 0,
-                  .shape = hit.geomID,
-                  .primitive = hit.primID,
-                  .instance = hit.instID[0],
-                  .uv = {hit.u, hit.v}};
-    const TargetShape& target = targets_[result.group][hit.geomID];
-    if (!target.mesh()) return result;
-    const PreciseRay precise = precise_ray(*context.world_ray, instance);
-    if ((instance || may_be_at_end(target, ray, hit, context.t_max)) &&
-        !target.is_between_ends(hit.primID, precise, context.t_max))
-      return std::nullopt;
-    result.t =
-        static_cast<float>(plane_distance(target.mesh()->triangle(hit.primID), precise));
-    return result;
-  }
-
-  Handle<RTCDevice> device_;
-  std::vector<std::vector<TargetShape>> targets_;  // by group and shape
-  std::vector<Handle<RTCScene>> scenes_;           // by group
-  // The boundaries of the world once more: rays for transmittance need not wade through the
-  // rest, and see at once when there are no more.
-  Handle<RTCScene> boundaries_;
-  Bounds3 boundary_bounds_;
-  InstanceTable instances_;
-};
 
 Intersector::Intersector(std::span<const Group> groups,
                          std::span<const Instance> instances) try
-    : impl_(std::make_unique<Impl>(groups, instances)) {
+    : scenes_(std::make_unique<EmbreeScenes>(
+          groups, instances,
+          EmbreeCallbacks{.filter = drop_hit_of_ends,
+                          .filter_translucent = drop_hit_of_translucent,
+                          .filter_boundary = filter_boundary,
+                          .intersect = intersect_user_geometry,
+                          .intersect_boundary = intersect_curved_boundary,
+                          .occlude = occlude_user_geometry})) {
 } catch (const std::bad_alloc&) {
   throw std::runtime_error("out of memory while building the ray tracing structures");
 }
@@ -456,26 +277,32 @@ std::optional<SceneHit> Intersector::intersect(const Ray& ray, float t_max,
 }
 
 std::optional<RayHit> Intersector::find(const Ray& ray, float t_max, RayMask mask) const {
-  return impl_->find(ray, t_max, mask, nullptr);
+  return find_in(*scenes_, ray, t_max, mask, nullptr);
 }
 
 std::optional<RayHit> Intersector::find_through(const Ray& ray, float t_max, RayMask mask,
                                                 Crossings& crossings) const {
   crossings.clear();
-  const std::optional<RayHit> hit = impl_->find(ray, t_max, mask, &crossings);
+  const std::optional<RayHit> hit = find_in(*scenes_, ray, t_max, mask, &crossings);
   if (hit) drop_beyond(crossings, hit->t);
   std::ranges::sort(crossings, {}, &Crossing::t);
   return hit;
 }
 
 SceneHit Intersector::resolve(const Ray& ray, const RayHit& hit) const {
-  return impl_->resolve(ray, hit);
+  const InstanceMaps* instance = scenes_->instances().of(hit.instance);
+  return reconstruct(scenes_->target(hit.group, hit.shape), hit, precise_ray(ray, instance),
+                     instance);
 }
 
 bool Intersector::is_occluded(const Ray& ray, float t_max, RayMask mask) const {
-  return impl_->is_occluded(ray, t_max, mask);
+  if (!can_hit(ray, t_max)) return false;
+  RayContext context = new_context(*scenes_, ray, t_max, nullptr);
+  RTCRay query = to_embree(ray, t_max, mask);
+  rtcOccluded1(scenes_->world(), &context.embree, &query);
+  return query.tfar < 0;
 }
 
-Bounds3 Intersector::bounds() const { return impl_->bounds(); }
+Bounds3 Intersector::bounds() const { return scenes_->world_bounds(); }
 
 }  // namespace tyndall

@@ -15,6 +15,8 @@
 
 namespace tyndall {
 
+class EmbreeScenes;
+
 /// Which shapes a ray sees.
 enum class RayMask : uint32_t {
   opaque = 1,    ///< all but interfaces
@@ -69,8 +71,7 @@ class Intersector {
   Bounds3 bounds() const;
 
  private:
-  class Impl;
-  std::unique_ptr<Impl> impl_;
+  std::unique_ptr<const EmbreeScenes> scenes_;
 };
 
 /// The point `p` of a surface moved off it to the side that `d` leaves to, by a few units

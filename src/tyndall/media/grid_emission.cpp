@@ -15,20 +15,19 @@ EmissionLookup::EmissionLookup(const GridEmission& emission,
 std::optional<EmissionLookup::Field> EmissionLookup::make_field(
     const std::optional<PlacedGrid>& placed, const Transform& world_from_medium) {
   if (!placed) return std::nullopt;
-  const Transform world_from_grid = world_from_medium * placed->medium_from_grid;
-  return Field{placed->grid, GridSpace(world_from_grid.inverse()), placed->box};
+  return Field{placed->grid, GridPlacement(*placed, world_from_medium)};
 }
 
 EmissionLookup EmissionLookup::moved(Vec3d by) const {
   EmissionLookup result = *this;
   for (std::optional<Field>* field : {&result.scale_, &result.temperature_})
-    if (*field) (*field)->space = (*field)->space.moved(by);
+    if (*field) (*field)->placement.move(by);
   return result;
 }
 
 float EmissionLookup::Field::operator()(Vec3 p) const {
-  const Vec3 p_grid = space.point(p);
-  return box.contains(p_grid) ? grid->interpolate(p_grid) : 0;
+  const Vec3 p_grid = placement.point(p);
+  return placement.contains(p_grid) ? grid->interpolate(p_grid) : 0;
 }
 
 size_t EmissionLookup::memory() const {

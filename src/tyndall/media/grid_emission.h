@@ -4,10 +4,9 @@
 #include <memory>
 #include <optional>
 
-#include "tyndall/geometry/grid_space.h"
-#include "tyndall/math/bounds.h"
 #include "tyndall/math/rgb.h"
 #include "tyndall/math/vec.h"
+#include "tyndall/media/grid_placement.h"
 #include "tyndall/media/placed_grid.h"
 
 namespace tyndall {
@@ -38,8 +37,7 @@ class EmissionLookup {
   // A grid that can be looked up in world space.
   struct Field {
     std::shared_ptr<const BrickGrid> grid;
-    GridSpace space;
-    Bounds3 box;
+    GridPlacement placement;
 
     float operator()(Vec3 p) const;
   };

@@ -9,15 +9,12 @@ GridMedium::GridMedium(const PlacedGrid& density, const Transform& world_from_me
                        const MediumProperties& properties, PhaseFunction phase,
                        const GridEmission& emission)
     : density_(density.grid),
-      box_(density.box),
+      placement_(density, world_from_medium),
       properties_(properties),
       sigma_t_(properties.sigma_t()),
       phase_(std::move(phase)) {
-  world_from_grid_ = world_from_medium * density.medium_from_grid;
-  space_ = GridSpace(world_from_grid_.inverse());
-  if (!box_.is_empty()) world_bounds_ = world_from_grid_.bounds(box_);
   const float sigma_t = max_component(sigma_t_);
-  largest_ = opaque_density(sigma_t, world_from_grid_);
+  largest_ = opaque_density(sigma_t, placement_.world_from_grid());
   bounds_ = std::make_shared<DensityBounds<1>>(DensityBounds<1>::Densities{density_.get()},
                                                sigma_t, largest_);
   if (!emission.is_constant())
@@ -31,9 +28,7 @@ GridMedium::GridMedium(const DensityGrid& density, const Bounds3& bounds,
                  std::move(phase)) {}
 
 void GridMedium::move(Vec3d by) {
-  world_from_grid_ = Transform::translate(by) * world_from_grid_;
-  space_ = space_.moved(by);
-  if (!box_.is_empty()) world_bounds_ = world_from_grid_.bounds(box_);
+  placement_.move(by);
   if (emission_) emission_ = std::make_shared<EmissionLookup>(emission_->moved(by));
 }
 

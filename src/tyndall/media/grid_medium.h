@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <memory>
 
-#include "tyndall/geometry/grid_space.h"
 #include "tyndall/geometry/ray.h"
 #include "tyndall/math/bounds.h"
 #include "tyndall/math/transform.h"
 #include "tyndall/media/brick_grid.h"
 #include "tyndall/media/density_bounds.h"
 #include "tyndall/media/grid_emission.h"
+#include "tyndall/media/grid_placement.h"
 #include "tyndall/media/grid_walk.h"
 #include "tyndall/media/medium_properties.h"
 #include "tyndall/media/phase_function.h"
@@ -38,7 +38,7 @@ class GridMedium {
     Segments(const GridMedium& medium, const Ray& ray, float t_max)
         : medium_(&medium),
           world_ray_(ray),
-          walk_(*medium.bounds_, medium.space_.clip(ray, t_max, medium.box_)) {}
+          walk_(*medium.bounds_, medium.placement_.clip(ray, t_max)) {}
 
     [[gnu::always_inline]] bool next(MediumSegment& segment) {
       GridWalk<1>::Stretch stretch;
@@ -71,7 +71,7 @@ class GridMedium {
   };
 
   MediumProperties at(Vec3 p) const {
-    return properties(std::min(density(space_.point(p)), largest_), p);
+    return properties(std::min(density(placement_.point(p)), largest_), p);
   }
   Segments segments(const Ray& ray, float t_max) const { return {*this, ray, t_max}; }
   bool is_emissive() const { return !is_black(properties_.sigma_a * properties_.Le); }
@@ -86,15 +86,12 @@ class GridMedium {
   size_t memory() const {
     return density_->memory() + bounds_->memory() + (emission_ ? emission_->memory() : 0);
   }
-  /// Of the box; empty if the medium is.
-  Bounds3 world_bounds() const { return world_bounds_; }
-  /// Where the medium is, in the space of its samples; empty if it is nowhere.
-  const Bounds3& grid_box() const { return box_; }
-  const Transform& world_from_grid() const { return world_from_grid_; }
+  Bounds3 world_bounds() const { return placement_.world_bounds(); }
+  const GridPlacement& placement() const { return placement_; }
 
  private:
   float density(Vec3 p_grid) const {
-    return box_.contains(p_grid) ? density_->interpolate(p_grid) : 0;
+    return placement_.contains(p_grid) ? density_->interpolate(p_grid) : 0;
   }
   MediumProperties properties(float density, Vec3 p) const {
     const bool varies = emission_ && density > 0;
@@ -105,10 +102,7 @@ class GridMedium {
   std::shared_ptr<const BrickGrid> density_;
   std::shared_ptr<const DensityBounds<1>> bounds_;
   std::shared_ptr<const EmissionLookup> emission_;  // null if constant
-  Transform world_from_grid_;
-  GridSpace space_;
-  Bounds3 box_;  // in grid space
-  Bounds3 world_bounds_;
+  GridPlacement placement_;
   MediumProperties properties_;
   Rgb sigma_t_;
   float largest_;  // density that is met

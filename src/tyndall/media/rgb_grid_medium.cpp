@@ -48,6 +48,17 @@ DensityGrid channel(const RgbGrid& grid, int c) {
   return values;
 }
 
+const RgbGrid& any_coefficient(const RgbGridMedium::Grids& grids) {
+  assert(grids.sigma_a || grids.sigma_s);
+  return grids.sigma_a ? *grids.sigma_a : *grids.sigma_s;
+}
+
+// Only for its transform and box: where the samples lie is the same for all grids.
+PlacedGrid place_ones(const RgbGrid& given, const Bounds3& bounds) {
+  return place_in_box({given.resolution, std::vector<float>(given.values.size(), 1)},
+                      bounds);
+}
+
 }  // namespace
 
 std::shared_ptr<const RgbGridMedium::Field> RgbGridMedium::make_field(const RgbGrid& grid) {
@@ -59,19 +70,12 @@ std::shared_ptr<const RgbGridMedium::Field> RgbGridMedium::make_field(const RgbG
 RgbGridMedium::RgbGridMedium(const Grids& grids, const Bounds3& bounds,
                              const Transform& world_from_medium, float scale,
                              float Le_scale, PhaseFunction phase)
-    : phase_(std::move(phase)) {
-  assert(grids.sigma_a || grids.sigma_s);
-  const RgbGrid& given = grids.sigma_a ? *grids.sigma_a : *grids.sigma_s;
+    : placement_(place_ones(any_coefficient(grids), bounds), world_from_medium),
+      phase_(std::move(phase)) {
+  const RgbGrid& given = any_coefficient(grids);
   const RgbGrid one{given.resolution, std::vector<Rgb>(given.values.size(), Rgb(1))};
-  // Only for its transform and box: where the samples lie is the same for all of them.
-  const DensityGrid ones{given.resolution, std::vector<float>(given.values.size(), 1)};
-  const PlacedGrid placed = place_in_box(ones, bounds);
-  world_from_grid_ = world_from_medium * placed.medium_from_grid;
-  space_ = GridSpace(world_from_grid_.inverse());
-  box_ = placed.box;
-  if (!box_.is_empty()) world_bounds_ = world_from_grid_.bounds(box_);
-
-  const float largest = std::min(opaque_density(1, world_from_grid_), BrickGrid::largest);
+  const float largest =
+      std::min(opaque_density(1, placement_.world_from_grid()), BrickGrid::largest);
   const Coefficients sigma(grids.sigma_a.value_or(one), grids.sigma_s.value_or(one), scale,
                            largest);
   is_reduced_ = sigma.is_reduced;
@@ -80,12 +84,6 @@ RgbGridMedium::RgbGridMedium(const Grids& grids, const Bounds3& bounds,
   if (grids.Le && Le_scale > 0) Le_ = make_field(scaled(*grids.Le, Le_scale));
   bounds_ = std::make_shared<DensityBounds<3>>(
       DensityBounds<3>::Densities{&sigma_t_->r, &sigma_t_->g, &sigma_t_->b}, 1.0f, largest);
-}
-
-void RgbGridMedium::move(Vec3d by) {
-  world_from_grid_ = Transform::translate(by) * world_from_grid_;
-  space_ = space_.moved(by);
-  if (!box_.is_empty()) world_bounds_ = world_from_grid_.bounds(box_);
 }
 
 }  // namespace tyndall

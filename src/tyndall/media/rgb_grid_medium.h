@@ -7,13 +7,13 @@
 #include <optional>
 #include <vector>
 
-#include "tyndall/geometry/grid_space.h"
 #include "tyndall/geometry/ray.h"
 #include "tyndall/math/bounds.h"
 #include "tyndall/math/rgb.h"
 #include "tyndall/math/transform.h"
 #include "tyndall/media/brick_grid.h"
 #include "tyndall/media/density_bounds.h"
+#include "tyndall/media/grid_placement.h"
 #include "tyndall/media/grid_walk.h"
 #include "tyndall/media/medium_properties.h"
 #include "tyndall/media/phase_function.h"
@@ -46,8 +46,7 @@ class RgbGridMedium {
   class Segments {
    public:
     Segments(const RgbGridMedium& medium, const Ray& ray, float t_max)
-        : medium_(&medium),
-          walk_(*medium.bounds_, medium.space_.clip(ray, t_max, medium.box_)) {}
+        : medium_(&medium), walk_(*medium.bounds_, medium.placement_.clip(ray, t_max)) {}
 
     bool next(MediumSegment& segment) {
       GridWalk<3>::Stretch stretch;
@@ -72,11 +71,13 @@ class RgbGridMedium {
     GridWalk<3> walk_;
   };
 
-  MediumProperties at(Vec3 p) const { return properties(space_.point(p), Rgb(infinity)); }
+  MediumProperties at(Vec3 p) const {
+    return properties(placement_.point(p), Rgb(infinity));
+  }
   Segments segments(const Ray& ray, float t_max) const { return {*this, ray, t_max}; }
   bool is_emissive() const { return Le_ != nullptr; }
   bool is_grey() const { return false; }
-  void move(Vec3d by);  ///< in the world
+  void move(Vec3d by) { placement_.move(by); }  ///< in the world
   const PhaseFunction& phase() const { return phase_; }
   /// Whether there are coefficients so large that they were reduced, as those of
   /// GridMedium::is_reduced().
@@ -85,10 +86,8 @@ class RgbGridMedium {
     return sigma_t_->memory() + sigma_s_->memory() + (Le_ ? Le_->memory() : 0) +
            bounds_->memory();
   }
-  Bounds3 world_bounds() const { return world_bounds_; }
-  /// Where the medium is, in the space of its samples; empty if it is nowhere.
-  const Bounds3& grid_box() const { return box_; }
-  const Transform& world_from_grid() const { return world_from_grid_; }
+  Bounds3 world_bounds() const { return placement_.world_bounds(); }
+  const GridPlacement& placement() const { return placement_; }
 
  private:
   // One sparse grid per channel.
@@ -106,10 +105,10 @@ class RgbGridMedium {
     return {std::min(a.r, b.r), std::min(a.g, b.g), std::min(a.b, b.b)};
   }
   Rgb sigma_t(Vec3 p_grid) const {
-    return box_.contains(p_grid) ? (*sigma_t_)(p_grid) : Rgb(0);
+    return placement_.contains(p_grid) ? (*sigma_t_)(p_grid) : Rgb(0);
   }
   MediumProperties properties(Vec3 p_grid, Rgb majorant) const {
-    if (!box_.contains(p_grid)) return {};
+    if (!placement_.contains(p_grid)) return {};
     const Rgb sum = min((*sigma_t_)(p_grid), majorant);
     const Rgb sigma_s = min((*sigma_s_)(p_grid), sum);
     return {sum - sigma_s, sigma_s, Le_ ? (*Le_)(p_grid) : Rgb(0)};
@@ -119,10 +118,7 @@ class RgbGridMedium {
   std::shared_ptr<const Field> Le_;  // null if dark
   std::shared_ptr<const DensityBounds<3>> bounds_;
   bool is_reduced_ = false;
-  Transform world_from_grid_;
-  GridSpace space_;
-  Bounds3 box_;  // in grid space
-  Bounds3 world_bounds_;
+  GridPlacement placement_;
   PhaseFunction phase_;
 };
 

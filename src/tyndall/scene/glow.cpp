@@ -83,7 +83,7 @@ std::optional<EmissionDistribution> measure_emission(const Medium& medium,
     else if constexpr (std::is_same_v<M, OverlappingMedia>)
       return std::nullopt;  // its parts emit
     else
-      return measure(medium, m.world_from_grid(), m.grid_box());
+      return measure(medium, m.placement().world_from_grid(), m.placement().box());
   });
 }
 
