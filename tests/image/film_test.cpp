@@ -110,7 +110,9 @@ TEST(FilmTest, PixelWithoutSamplesShowsOneNearby) {
   const Image image = film.develop();
   EXPECT_EQ(image.find("spp.Y")->values, (std::vector<float>{0, 2, 1}));
   for (const Channel& channel : image.channels()) {
-    if (channel.name != "spp.Y") EXPECT_EQ(channel.values[0], channel.values[1]);
+    if (channel.name != "spp.Y") {
+      EXPECT_EQ(channel.values[0], channel.values[1]);
+    }
   }
   EXPECT_EQ(image.rgb(0, 0), Rgb(2));
 }
