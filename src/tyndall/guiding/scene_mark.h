@@ -15,8 +15,8 @@ class Scene;
 /// What tells a scene from others, so that what was learned in one is not used in another.
 struct SceneMark {
   uint32_t lights = 0;
-  Bounds3 bounds;        ///< in the world outside
-  Vec3 camera;           ///< where it stands there
+  Bounds3 bounds{};      ///< in the world outside
+  Vec3 camera{};         ///< where it stands there
   Vec3d world_origin{};  ///< of the coordinates in which was learned
 
   static SceneMark of(const Scene& scene);
