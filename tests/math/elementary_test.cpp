@@ -38,6 +38,41 @@ TEST(Elementary, ArcTangent) {
       1.5e-7);
 }
 
+TEST(Elementary, ArcTangentHasTheSignOfItsArgument) {
+  EXPECT_EQ(arc_tangent(0), 0);
+  for (const float x : {tiny, 0.3f, 1.0f}) {
+    EXPECT_NEAR(arc_tangent(x) / std::atan(x), 1, 2e-7);
+    EXPECT_EQ(arc_tangent(-x), -arc_tangent(x));
+  }
+}
+
+/// The larger of the errors of both angles, each relative to its size.
+double polar_angle_error(float run, float rise) {
+  const PolarAngle found = polar_angle(run, rise);
+  const double theta = std::atan2(double{rise}, double{run});
+  const double back = std::atan2(double{rise}, -double{run});
+  return std::max(std::abs(found.theta / theta - 1), std::abs(found.back / back - 1));
+}
+
+TEST(Elementary, PolarAngleInEachOctant) {
+  double worst = 0;
+  for_floats(1e-20f, 1, [&](float slope) {
+    worst = std::max({worst, polar_angle_error(1, slope), polar_angle_error(slope, 1),
+                      polar_angle_error(-slope, 1), polar_angle_error(-1, slope)});
+  });
+  for (const float length : {1e-15f, 1e15f})
+    worst = std::max(worst, polar_angle_error(-length, 0.3f * length));
+  EXPECT_LT(worst, 2.5e-7);
+}
+
+TEST(Elementary, PolarAngleOnTheAxis) {
+  for (const float run : {0.0f, 1.0f, -1.0f}) {
+    const PolarAngle found = polar_angle(run, 0);
+    EXPECT_EQ(found.theta, run < 0 ? pi : 0);
+    EXPECT_EQ(found.back, run < 0 ? 0 : pi);
+  }
+}
+
 TEST(Elementary, SineAndCosineByTheSquare) {
   constexpr float quarter = 2.467401f;  // (pi / 2)^2
   EXPECT_EQ(sine_over(0), 1);

@@ -35,9 +35,6 @@ DiskPoint disk_from_square(Vec2 p) {
                  : DiskPoint{radius, inner, minor, major};
 }
 
-// Of x in [-1, 1].
-float arc_tangent(float x) { return x * arc_tangent_over(std::abs(x)); }
-
 // `edge` is 1 - radius.
 Vec2 square_from_disk(float radius, float edge, float x, float y) {
   const float sector = 4 * inv_pi;
@@ -58,19 +55,6 @@ Vec2 square_from_disk(float radius, float edge, float x, float y) {
 float joint_density(float back, float sine) {
   return inv_pi3 * (back < 1e-3f ? 1 : back / std::max(sine, least_sine));
 }
-
-// The angles of w = (., ., cosine) from z and from -z.
-struct PolarAngle {
-  float theta, back;
-
-  PolarAngle(float sine, float cosine) {
-    const float run = std::abs(cosine), large = std::max(run, sine);
-    const float arc = large > 0 ? arc_tangent(std::min(run, sine) / large) : 0;
-    const float acute = sine > run ? 0.5f * pi - arc : arc;
-    theta = by_sign(cosine, acute, pi - acute);
-    back = by_sign(cosine, pi - acute, acute);
-  }
-};
 
 }  // namespace
 
@@ -105,7 +89,7 @@ SquarePoint LightSquare::point(Vec3 w) const {
     inner = v.z > 0 ? 1 - small : small;
     density = inv_4pi;
   } else {
-    const PolarAngle angle(sine, v.z);
+    const PolarAngle angle = polar_angle(v.z, sine);
     inner = sqr(angle.back * inv_pi);
     squared_radius = angle.theta * inv_pi * (1 + angle.back * inv_pi);
     density = joint_density(angle.back, sine);
@@ -118,7 +102,7 @@ float LightSquare::density(Vec3 w) const {
   if (measure_ == SquareMeasure::solid_angle) return inv_4pi;
   const Vec3 v = frame_.to_local(w);
   const float sine = std::sqrt(v.x * v.x + v.y * v.y);
-  return joint_density(PolarAngle(sine, v.z).back, sine);
+  return joint_density(polar_angle(v.z, sine).back, sine);
 }
 
 Frame turned_frame(const Frame& reference, Vec3 axis) {

@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdint>
+
+#include "tyndall/math/constants.h"
 
 namespace tyndall {
 
@@ -25,7 +28,7 @@ inline float flip_sign(float x, float a, float b) {
   return std::bit_cast<float>(std::bit_cast<uint32_t>(x) ^ (sign & 0x80000000u));
 }
 
-/// atan(x) / x for x in [0, 1].
+/// atan(x) / x for x in [-1, 1].
 inline float arc_tangent_over(float x) {
   const float a = x * x, a2 = a * a;
   const float low =
@@ -33,6 +36,23 @@ inline float arc_tangent_over(float x) {
   const float high =
       (-0.0755221248f + 0.0432118364f * a) + (-0.0163679142f + 0.0029206886f * a) * a2;
   return 1 + a * (low + high * (a2 * a2));
+}
+
+/// atan(x) for x in [-1, 1].
+inline float arc_tangent(float x) { return x * arc_tangent_over(x); }
+
+/// The angles of a vector from the z axis and from its opposite [rad].
+struct PolarAngle {
+  float theta, back;  ///< each with all digits where it is small
+};
+
+/// Of a vector with `run` along the axis and `rise` >= 0 across it, of any length; that of
+/// the vector zero is along the axis.
+inline PolarAngle polar_angle(float run, float rise) {
+  const float along = std::abs(run), large = std::max(along, rise);
+  const float arc = large > 0 ? arc_tangent(std::min(along, rise) / large) : 0;
+  const float acute = rise > along ? 0.5f * pi - arc : arc;
+  return {by_sign(run, acute, pi - acute), by_sign(run, pi - acute, acute)};
 }
 
 /// sin(x) / x by the square of x, x in [0, pi / 2].
