@@ -118,10 +118,10 @@ PlacedGrid refined(const PlacedGrid& grid) {
         }
     return true;
   };
-  return {std::make_shared<BrickGrid>(Vec3i{more(bricks.x), more(bricks.y), more(bricks.z)},
-                                      source, BrickGrid::Precision::compact),
-          grid.medium_from_grid * Transform::scale({step, step, step}),
-          {grid.box.min / step, grid.box.max / step}};
+  return {{grid.medium_from_grid * Transform::scale({step, step, step}),
+           {grid.box.min / step, grid.box.max / step}},
+          std::make_shared<BrickGrid>(Vec3i{more(bricks.x), more(bricks.y), more(bricks.z)},
+                                      source, BrickGrid::Precision::compact)};
 }
 
 // From points of positive density in random directions.

@@ -100,7 +100,7 @@ TEST_P(BoundsTest, MajorantsHoldAlongRays) {
   const Bounds3 box{{0, 0, 0},
                     to_float({8 * bricks.x - 1, 8 * bricks.y - 1, 8 * bricks.z - 1})};
   const Transform world_from_medium = random_transform(rng, GetParam());
-  const GridMedium medium({grid, Transform(), box}, world_from_medium,
+  const GridMedium medium({{Transform(), box}, grid}, world_from_medium,
                           {Rgb(0), Rgb(1), Rgb(0)}, IsotropicPhase{});
   // All of a stretch through the corner of a cell is near its ends.
   const float corner = 3e-3f * length(world_from_medium.vector({1, 0, 0}));

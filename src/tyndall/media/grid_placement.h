@@ -14,7 +14,7 @@ namespace tyndall {
 /// Where a grid lies in the world. It is zero outside its box.
 class GridPlacement {
  public:
-  GridPlacement(const PlacedGrid& grid, const Transform& world_from_medium)
+  GridPlacement(const GridPlace& grid, const Transform& world_from_medium)
       : world_from_grid_(world_from_medium * grid.medium_from_grid),
         space_(world_from_grid_.inverse()),
         box_(grid.box),

@@ -2,6 +2,7 @@
 #include "tyndall/media/placed_grid.h"
 
 #include <optional>
+#include <utility>
 
 namespace tyndall {
 namespace {
@@ -22,15 +23,20 @@ std::optional<Transform> grid_from_medium(const Bounds3& bounds, Vec3i resolutio
 }  // namespace
 
 PlacedGrid place_in_box(const DensityGrid& values, const Bounds3& bounds) {
-  PlacedGrid placed{std::make_shared<BrickGrid>(BrickGrid::from_dense(values)), {}, {}};
-  const auto map = grid_from_medium(bounds, values.resolution);
-  if (!map || placed.grid->is_empty()) return placed;
-  placed.medium_from_grid = map->inverse();
-  const Vec3i n = values.resolution;
-  placed.box = {{0.5f, 0.5f, 0.5f},
-                {static_cast<float>(n.x) + 0.5f, static_cast<float>(n.y) + 0.5f,
-                 static_cast<float>(n.z) + 0.5f}};
-  return placed;
+  auto grid = std::make_shared<BrickGrid>(BrickGrid::from_dense(values));
+  const bool is_empty = grid->is_empty();
+  return {is_empty ? GridPlace{} : place_in_box(values.resolution, bounds),
+          std::move(grid)};
+}
+
+GridPlace place_in_box(Vec3i resolution, const Bounds3& bounds) {
+  const std::optional<Transform> map = grid_from_medium(bounds, resolution);
+  if (!map) return {};
+  const Vec3i n = resolution;
+  return {map->inverse(),
+          {{0.5f, 0.5f, 0.5f},
+           {static_cast<float>(n.x) + 0.5f, static_cast<float>(n.y) + 0.5f,
+            static_cast<float>(n.z) + 0.5f}}};
 }
 
 }  // namespace tyndall

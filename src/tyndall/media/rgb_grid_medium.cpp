@@ -53,12 +53,6 @@ const RgbGrid& any_coefficient(const RgbGridMedium::Grids& grids) {
   return grids.sigma_a ? *grids.sigma_a : *grids.sigma_s;
 }
 
-// Only for its transform and box: where the samples lie is the same for all grids.
-PlacedGrid place_ones(const RgbGrid& given, const Bounds3& bounds) {
-  return place_in_box({given.resolution, std::vector<float>(given.values.size(), 1)},
-                      bounds);
-}
-
 }  // namespace
 
 std::shared_ptr<const RgbGridMedium::Field> RgbGridMedium::make_field(const RgbGrid& grid) {
@@ -70,7 +64,8 @@ std::shared_ptr<const RgbGridMedium::Field> RgbGridMedium::make_field(const RgbG
 RgbGridMedium::RgbGridMedium(const Grids& grids, const Bounds3& bounds,
                              const Transform& world_from_medium, float scale,
                              float Le_scale, PhaseFunction phase)
-    : placement_(place_ones(any_coefficient(grids), bounds), world_from_medium),
+    : placement_(place_in_box(any_coefficient(grids).resolution, bounds),
+                 world_from_medium),
       phase_(std::move(phase)) {
   const RgbGrid& given = any_coefficient(grids);
   const RgbGrid one{given.resolution, std::vector<Rgb>(given.values.size(), Rgb(1))};

@@ -50,20 +50,19 @@ PlacedGrid place_bricks(const BrickLayout& layout, const Matrix4& medium_from_vo
                         const BrickGrid::Prepare& prepare) {
   const std::optional<Transform> map = Transform::from_matrix(medium_from_voxel);
   if (!map) throw std::runtime_error("the grid's transform is not invertible");
-  PlacedGrid placed{.grid = std::make_shared<BrickGrid>(
-                        layout.brick_count, source, BrickGrid::Precision::compact, prepare),
-                    .medium_from_grid =
-                        *map * Transform::translate({static_cast<double>(layout.origin.x),
-                                                     static_cast<double>(layout.origin.y),
-                                                     static_cast<double>(layout.origin.z)}),
-                    .box = layout.box};
+  const Transform voxel_from_grid = Transform::translate(
+      {static_cast<double>(layout.origin.x), static_cast<double>(layout.origin.y),
+       static_cast<double>(layout.origin.z)});
+  PlacedGrid placed{{*map * voxel_from_grid, layout.box},
+                    std::make_shared<BrickGrid>(layout.brick_count, source,
+                                                BrickGrid::Precision::compact, prepare)};
   if (placed.grid->is_empty()) placed.box = {};
   return placed;
 }
 
 PlacedGrid empty_grid() {
   const auto nothing = [](Vec3i, BrickGrid::Samples) { return false; };
-  return {std::make_shared<BrickGrid>(Vec3i{1, 1, 1}, nothing), {}, {}};
+  return {{}, std::make_shared<BrickGrid>(Vec3i{1, 1, 1}, nothing)};
 }
 
 }  // namespace tyndall
