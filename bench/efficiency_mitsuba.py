@@ -37,7 +37,10 @@ def parse_arguments():
     parser.add_argument("--seconds", type=float, default=10, help="processor time of a run [10]")
     parser.add_argument("--seeds", type=int, default=5, help="runs of each kind, three or more [5]")
     parser.add_argument("--threads", type=int, default=len(os.sched_getaffinity(0)))
-    return parser.parse_args()
+    arguments = parser.parse_args()
+    if arguments.seeds < 3:
+        parser.error("--seeds: three or more, the variance is that between them")
+    return arguments
 
 
 class Mitsuba:
@@ -69,8 +72,8 @@ class Mitsuba:
 class Tyndall:
     def __init__(self, arguments, scene, variant, integrator):
         self.arguments, self.what = arguments, (scene, variant, integrator)
-        few, more = (self.render(n, 0)["cpu"] for n in (1, 9))
-        self.spp = max(round(8 * (arguments.seconds - few) / max(more - few, 0.1 * more)), 1)
+        import efficiency
+        self.spp = efficiency.samples_taking(arguments.seconds, lambda n: self.render(n, 0)["cpu"])
 
     def render(self, spp, seed):
         import efficiency
@@ -87,25 +90,30 @@ def largest_t(np, a, b):
                                            for runs in (a, b)))
 
 
-def row(np, name, runs, base):
+def measured(np, runs):
     import efficiency
-    mean = np.mean([run["mean"] for run in runs], axis=0)
-    weight = 1 / (mean**2 + 0.01 * mean.mean()**2)
-    between = np.var([run["mean"] for run in runs], axis=0, ddof=1)
-    variance = efficiency.trimmed_mean(np.mean(between * weight, -1))
-    cpu, spp = (float(np.mean([run[key] for run in runs])) for key in ("cpu", "spp"))
-    result = {"cost": variance * cpu, "sample": variance * spp, "runs": runs}
-    if base is None:
-        base, agreement = result, ""
-    else:
-        t, limit, difference = largest_t(np, runs, base["runs"])
-        agreement = f"{100 * difference:+.2f} %, {t:.1f} of {limit:.1f}"
-        result["disagrees"] = t > limit
-    cells = [name, f"{len(runs)} x {spp:.0f}", f"{cpu:.1f}", efficiency.pair(variance),
-             efficiency.pair(base["cost"] / result["cost"]),
-             efficiency.pair(base["sample"] / result["sample"]), agreement]
+    return efficiency.Measured(runs, np.mean([run["mean"] for run in runs], axis=0))
+
+
+def print_row(name, m, base, agreement):
+    from efficiency import pair
+    cells = [name, f"{len(m.runs)} x {m.spp:.0f}", f"{m.cpu:.1f}", pair(m.variance),
+             pair(base.cost() / m.cost()), pair(base.cost_of_sample() / m.cost_of_sample()), agreement]
     print("| " + " | ".join(cells) + " |", flush=True)
-    return result
+
+
+def print_rows(np, what, runs):
+    """One for each kind of runs, the first of which is the base. Returns whether all agree with it."""
+    all_agree = True
+    base, *others = runs
+    base_measured = measured(np, runs[base])
+    print_row(f"{what} {base}", base_measured, base_measured, "")
+    for name in others:
+        t, limit, difference = largest_t(np, runs[name], runs[base])
+        all_agree &= not t > limit
+        print_row(f"{what} {name}", measured(np, runs[name]), base_measured,
+                  f"{100 * difference:+.2f} %, {t:.1f} of {limit:.1f}")
+    return all_agree
 
 
 def main():
@@ -124,7 +132,7 @@ def main():
     print(f"Mitsuba {mi.__version__}, {arguments.mitsuba}; {efficiency.machine()}\n")
     print("| scene, integrator | runs x spp | cpu [s] | variance | efficiency | a sample | means differ by, "
           "largest t of a tile |\n| --- | --- | --- | --- | --- | --- | --- |")
-    disagrees = False
+    all_agree = True
     for scene in names:
         for variant in arguments.variants.split(","):
             kinds = {"Mitsuba": Mitsuba(mi, arguments.archetypes / scene / efficiency.VARIANTS[variant],
@@ -135,12 +143,8 @@ def main():
             for seed in range(1, arguments.seeds + 1):
                 for name, kind in kinds.items():
                     runs[name].append(kind.run(seed))
-            base = None
-            for name in kinds:
-                result = row(np, f"{scene} {variant} {name}", runs[name], base)
-                base = base or result
-                disagrees |= result.get("disagrees", False)
-    return int(disagrees)
+            all_agree &= print_rows(np, f"{scene} {variant}", runs)
+    return int(not all_agree)
 
 
 if __name__ == "__main__":
