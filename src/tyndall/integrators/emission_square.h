@@ -40,6 +40,10 @@ class EmissionSquare {
   /// Density of emit() for a point `p` from which the light is in the unit direction
   /// `to_light` at `distance`; see LitSurfaceSampling::densities().
   float density(Vec3 p, Vec3 to_light, float distance) const;
+  /// Luminance of all that the light emits [W], for the choice between squares.
+  float power(const Bounds3& scene_bounds) const {
+    return luminance(light_->power(scene_bounds.radius()));
+  }
 
  private:
   enum class Kind { point, spot, parallel, sphere, flat, bent };

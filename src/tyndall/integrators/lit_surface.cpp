@@ -37,10 +37,8 @@ Squares squares_of(const Scene& scene) {
 // Before anything is learned, a walk over one more surface is tried half as often.
 std::vector<float> powers(const Scene& scene, const Squares& squares, int max_surfaces) {
   std::vector<float> powers;
-  for (size_t light = 0; light < squares.size(); ++light) {
-    float power = squares[light]
-                      ? luminance(scene.lights()[light].power(scene.bounds().radius()))
-                      : 0;
+  for (const std::optional<EmissionSquare>& square : squares) {
+    float power = square ? square->power(scene.bounds()) : 0;
     for (int i = 0; i < max_surfaces; ++i, power *= 0.5f) powers.push_back(power);
   }
   return powers;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tyndall/integrators/particle_source.h"
 
-#include <algorithm>
+#include <numeric>
 #include <variant>
 
 #include "tyndall/integrators/leg.h"
@@ -43,14 +43,13 @@ ParticleSource::ParticleSource(const Scene& scene, uint64_t seed) : scene_(&scen
   if (bounds_of_specular(scene.description()).is_empty()) return;
   add_emitters();
   std::vector<float> powers;
-  for (size_t i = 0; i < emitters_.size(); ++i)
-    powers.push_back(emitters_[i].square
-                         ? luminance(scene.lights()[i].power(scene.bounds().radius()))
-                         : 0);
-  if (!std::ranges::any_of(powers, [](float power) { return power > 0; })) return;
+  for (const Emitter& emitter : emitters_)
+    powers.push_back(emitter.square ? emitter.square->power(scene.bounds()) : 0);
+  const float power = std::accumulate(powers.begin(), powers.end(), 0.0f);
+  if (!(power > 0)) return;
   learned_.emplace(powers, max_bytes);
-  learn(hash(seed, uint64_t{1}));
-  learn(hash(seed, uint64_t{2}));
+  learn(hash(seed, uint64_t{1}), power);
+  learn(hash(seed, uint64_t{2}), power);
 }
 
 void ParticleSource::add_emitters() {
@@ -84,11 +83,7 @@ void ParticleSource::find_media(Emitter& emitter, bool is_infinite) const {
                                  : scene_->surrounding_medium(ray.ray.o));
 }
 
-void ParticleSource::learn(uint64_t seed) {
-  float power = 0;
-  for (size_t i = 0; i < emitters_.size(); ++i)
-    if (emitters_[i].square)
-      power += luminance(scene_->lights()[i].power(scene_->bounds().radius()));
+void ParticleSource::learn(uint64_t seed, float power) {
   for (uint32_t i = 0; i < pilot_rays; ++i) {
     Sampler sampler(SamplerKind::sobol, seed, {-1, -1}, i);
     const float u_light = sampler.next_1d();

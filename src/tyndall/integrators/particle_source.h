@@ -47,7 +47,7 @@ class ParticleSource {
   };
   void add_emitters();
   void find_media(Emitter& emitter, bool is_infinite) const;
-  void learn(uint64_t seed);
+  void learn(uint64_t seed, float power);  // of all emitters
   std::optional<EmittedRay> emit(const SquaresSample& choice, Vec2 u_point) const;
 
   const Scene* scene_;
