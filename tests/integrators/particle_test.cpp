@@ -237,6 +237,38 @@ TEST(Particles, ThoseOfLaterSamplesAreAllOrNone) {
   EXPECT_EQ(same.develop().find("G")->values, film.develop().find("G")->values);
 }
 
+// The red, of which there is most, that the particles of one sample bring to the picture,
+// with `maximum` for the largest component of a splat.
+double red_splats(const Scene& scene, float maximum) {
+  RenderSettings s = test::settings("volpath", 7);
+  s.resolution = s.crop_max = {60, 60};
+  s.imaging_ratio = 4;
+  s.max_component = maximum;
+  const ParticleTracer tracer(scene, s,
+                              {.max_depth = 7, .orders = {}, .is_chromatic = false});
+  const Filter filter(s.filter);
+  Film film(s.resolution, s.crop_min, s.crop_max);
+  ParticlePass(filter, s).run(tracer, 0, film, {});
+  double sum = 0;
+  for (int i = 0; i < 60 * 60; ++i) sum += film.estimate({i % 60, i / 60}).mean[0];
+  return sum;
+}
+
+// As pbrt-v4's film: after the imaging ratio, before the filter, by the largest component.
+TEST(Particles, SplatsAreDimmedToTheMaximumComponent) {
+  const Scene scene(lit_through_glass({"sphere", "fog", "hollow"}, {60, 60}));
+  const double all = red_splats(scene, infinity);
+  EXPECT_EQ(red_splats(scene, 1e6f), all);
+  EXPECT_GT(red_splats(scene, 0.5f), 0.1 * all);
+  EXPECT_LT(red_splats(scene, 0.5f), 0.9 * all);
+  // So little that all are dimmed. There is a particle for each pixel, with a splat for
+  // each of its vertices but the first.
+  const double few = red_splats(scene, 1e-12f);
+  EXPECT_NEAR(red_splats(scene, 2e-12f), 2 * few, 1e-5 * few);
+  EXPECT_GT(few, 0);
+  EXPECT_LT(few, 6 * 1e-12 * 60 * 60);
+}
+
 Image picture_of_30(const std::string& integrator, int threads, uint32_t spp) {
   const Case c{"sphere", "chromatic", "ball"};
   static const Scene scene(lit_through_glass(c));

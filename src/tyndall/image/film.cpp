@@ -32,6 +32,11 @@ void fill(Image& image, const std::string& layer, const std::string& components,
 
 }  // namespace
 
+Rgb limited(Rgb L, float max) {
+  const float largest = max_component(L);
+  return largest > max && is_finite(L) ? L * (max / largest) : L;
+}
+
 Film::Film(Vec2i full_size, Vec2i crop_min, Vec2i crop_max)
     : full_size_(full_size), crop_min_(crop_min), crop_max_(crop_max) {
   assert(width() > 0 && height() > 0);

@@ -20,6 +20,10 @@ struct PathSample {
   float depth = 0;  ///< distance to the first event [scene units]; zero if there is none
 };
 
+/// L with no component above `max`, its color kept: pbrt's maxcomponentvalue, for samples
+/// and splats. What is not finite is left to the film.
+Rgb limited(Rgb L, float max);
+
 /// Samples that the film refused, by cause.
 struct RejectedSamples {
   int64_t not_a_number = 0, infinite = 0, negative = 0;

@@ -21,6 +21,7 @@ constexpr uint32_t first_measure = 4, last_measure = 16;
 ParticlePass::ParticlePass(const Filter& filter, const RenderSettings& settings)
     : canvas_(filter, settings.crop_min, settings.crop_max),
       imaging_ratio_(double{settings.imaging_ratio}),
+      max_component_(settings.max_component),
       batches_(batch_count),
       rays_(batch_count) {}
 
@@ -71,6 +72,8 @@ uint32_t ParticlePass::trace(const ParticleTracer& particles, uint32_t index,
                              const Deadline& deadline,
                              const std::function<void(size_t batches)>& take) {
   const uint32_t count = particles.count();
+  // A splat's value times imaging_ratio_ / count is what it adds to a picture of one pixel.
+  const auto largest = static_cast<float>(double{max_component_} * count / imaging_ratio_);
   std::atomic<uint32_t> traced = 0;
   for (uint32_t start = 0; start < count; start += batch_size * batch_count) {
     const uint32_t left = count - start;
@@ -82,6 +85,7 @@ uint32_t ParticlePass::trace(const ParticleTracer& particles, uint32_t index,
       const uint32_t first = start + static_cast<uint32_t>(i) * batch_size;
       const uint32_t end = first + std::min(batch_size, count - first);
       rays_[i] = particles.trace(index, first, end, canvas_, batches_[i]);
+      for (Splat& splat : batches_[i]) splat.value = limited(splat.value, largest);
       traced += end - first;
     });
     take(batches);

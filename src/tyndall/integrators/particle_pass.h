@@ -36,6 +36,7 @@ class ParticlePass {
 
   SplatCanvas canvas_;
   double imaging_ratio_;
+  float max_component_;  // of splats
   std::vector<std::vector<Splat>> batches_;
   std::vector<int64_t> rays_;  // of each batch
 };

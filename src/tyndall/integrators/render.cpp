@@ -50,12 +50,6 @@ double process_cpu_seconds() {
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-// L with no component above `max`, its color kept. What is not finite is left to the film.
-Rgb limited(Rgb L, float max) {
-  const float largest = max_component(L);
-  return largest > max && is_finite(L) ? L * (max / largest) : L;
-}
-
 struct Pass {
   uint32_t first, count;  // samples of each pixel
 };

@@ -38,8 +38,8 @@ struct RenderSettings {
   std::string output = "tyndall.exr";
   /// What pixels are multiplied by: pbrt-v4's exposure time * iso / 100.
   float imaging_ratio = 1;
-  /// Samples with a brighter component, after imaging_ratio, are dimmed to it: pbrt-v4's
-  /// maxcomponentvalue. It takes light away.
+  /// Samples and splats with a brighter component, after imaging_ratio, are dimmed to it:
+  /// pbrt-v4's maxcomponentvalue. It takes light away.
   float max_component = infinity;
   /// Integrator options by dotted name, as `--set learned.direction=off` gives them.
   std::map<std::string, std::string> options;
