@@ -18,9 +18,9 @@ constexpr uint32_t pilot_paths = 1024;
 constexpr uint32_t pretraining_paths = 4096;
 // The budget of connections is final from this sample of each pixel on.
 constexpr uint32_t last_update = 64;
-// At this update, or at the second if directions or lit surfaces are learned, paths without
-// connections are traced, to compare with.
-constexpr uint32_t trial_update = 4, trial_update_of_learned = 16;
+// Before this sample of each pixel, or before a later one if directions or lit surfaces are
+// learned, paths without connections are traced, to compare with.
+constexpr uint32_t trial_sample = 4, trial_sample_of_learned = 16;
 constexpr uint32_t trial_paths = 1 << 17, trial_batch = 1 << 8;
 // What connections cost over what their rays cost: techniques are built for them, and bins
 // filled where it is predicted what lights see. Measured on the archetype scenes.
@@ -41,6 +41,18 @@ const Medium* filling(const Scene& scene) {
   return is_simple ? medium : nullptr;
 }
 
+PathRules plain_rules(const Scene& scene, const RenderSettings& settings) {
+  const std::vector<Medium>& media = scene.description().media;
+  return {.max_depth = settings.max_depth,
+          .orders = settings.orders,
+          .is_chromatic = !std::ranges::all_of(media, &Medium::is_grey),
+          .walks_find_light = std::ranges::any_of(media, &Medium::is_emissive) ||
+                              std::ranges::any_of(scene.lights(), can_be_hit),
+          .filling = filling(scene),
+          .connections = nullptr,
+          .budget = nullptr};
+}
+
 std::string note_on_plain_paths(bool would_learn) {
   const std::string note =
       "no light is near enough to what scatters for connections to help: rendered as by "
@@ -55,16 +67,7 @@ PathTracer::PathTracer(const Scene& scene, const RenderSettings& settings,
     : scene_(scene),
       seed_(settings.seed),
       resolution_(settings.resolution),
-      rules_{
-          .max_depth = settings.max_depth,
-          .orders = settings.orders,
-          .is_chromatic = !std::ranges::all_of(scene.description().media, &Medium::is_grey),
-          .walks_find_light =
-              std::ranges::any_of(scene.description().media, &Medium::is_emissive) ||
-              std::ranges::any_of(scene.lights(), can_be_hit),
-          .filling = filling(scene),
-          .connections = nullptr,
-          .budget = nullptr},
+      rules_(plain_rules(scene, settings)),
       learns_(connections.visibility || connections.direction) {
   if (connections.particles) add_particles(settings);
   plain_rules_ = rules_;
@@ -74,16 +77,20 @@ PathTracer::PathTracer(const Scene& scene, const RenderSettings& settings,
     return;
   }
   if (!useful.why_unlearned.empty()) notes_.push_back(useful.why_unlearned);
-  connections_.emplace(scene, useful.settings);
+  add_connections(useful.settings);
+  if (connections.roulette) learn_worth();
+}
+
+void PathTracer::add_connections(const ConnectionSettings& settings) {
+  connections_.emplace(scene_, settings);
   rules_.connections = &*connections_;
-  if (connections_->settings().sky_directions)
+  if (settings.sky_directions)
     rules_.visibility = plain_rules_.visibility = connections_->visibility();
   rules_.filling = nullptr;
   budget_.emplace(pilot_radiance(), resolution_,
                   connections_->visibility() ? overhead_of_visibility : overhead,
                   least_efficiency);
   rules_.budget = &*budget_;
-  if (connections.roulette) learn_worth();
 }
 
 void PathTracer::add_particles(const RenderSettings& settings) {
@@ -148,7 +155,7 @@ uint32_t PathTracer::prepare(uint32_t first, const Deadline& deadline) {
   if (!budget_) return unlimited;
   if (first > 0 && budget_->is_recording()) {
     const bool learns = connections_->guiding() || connections_->lit_surfaces();
-    if (!was_tried_ && first >= (learns ? trial_update_of_learned : trial_update)) {
+    if (!was_tried_ && first >= (learns ? trial_sample_of_learned : trial_sample)) {
       was_tried_ = true;
       record_plain_paths(deadline);
     }
@@ -198,7 +205,10 @@ void PathTracer::report(RenderStatistics& statistics) const {
   for (const std::string& note : notes_) statistics.notes.push_back(note);
   if (rules_.particles)
     statistics.counters["particles"] = static_cast<double>(rules_.particles->count());
-  if (!budget_) return;
+  if (budget_) report_connections(statistics);
+}
+
+void PathTracer::report_connections(RenderStatistics& statistics) const {
   statistics.counters["connections.single"] = budget_->mean_count(Effort::single, 0);
   statistics.counters["connections.dual"] = budget_->mean_count(Effort::dual, 0);
   if (!budget_->pays())

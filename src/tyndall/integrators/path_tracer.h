@@ -23,7 +23,6 @@ class PathTracer : public Integrator {
   void dump(GuidingFileWriter& out) const override;
 
  private:
-  const Scene& scene_;
   struct PilotRays {
     uint32_t first, end;
   };
@@ -38,11 +37,14 @@ class PathTracer : public Integrator {
   void pretrain(DirectionGuiding& guiding) const;
   void record_plain_paths(const Deadline& deadline) const;
   void add_particles(const RenderSettings& settings);
+  void add_connections(const ConnectionSettings& settings);
   void learn_worth();
   void update();
   void give_up_connections();
+  void report_connections(RenderStatistics& statistics) const;
   std::string why_no_directions() const;
 
+  const Scene& scene_;
   uint64_t seed_;
   Vec2i resolution_;
   std::optional<ConnectionContext> connections_;
