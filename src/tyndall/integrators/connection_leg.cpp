@@ -2,7 +2,6 @@
 #include "tyndall/integrators/connection_leg.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "tyndall/integrators/connection_budget.h"
 #include "tyndall/math/vector_clones.h"
@@ -14,7 +13,7 @@ namespace {
 constexpr float end_transmittance = 1e-5f;
 
 // Where legs let less through than this, walks collide often enough by themselves.
-constexpr float least_end_transmittance = 0.3f;
+constexpr float least_forced_transmittance = 0.3f;
 
 // The share of the samples that does not trust the bins.
 constexpr float floor_share = 0.1f;
@@ -88,7 +87,8 @@ ConnectionLeg::ConnectionLeg(const ConnectionContext& context, const Pivots& piv
                              Leg& leg, bool is_first)
     : context_(&context), pivots_(&pivots), ray_(leg.ray()), proxy_(leg) {
   if (proxy_.is_empty()) return;
-  const bool may_pass = is_first && proxy_.collision_share() < 1 - least_end_transmittance;
+  const bool may_pass =
+      is_first && proxy_.collision_share() < 1 - least_forced_transmittance;
   forces_collisions_ =
       context.settings().single && (may_pass || context.foresees_far_lights());
   t_max_ = proxy_.distance_to(end_transmittance);

@@ -5,7 +5,6 @@
 
 #include "tyndall/integrators/free_flight.h"
 #include "tyndall/integrators/sky_sampling.h"
-#include "tyndall/sampling/mis.h"
 
 namespace tyndall {
 namespace {
@@ -72,7 +71,6 @@ bool Path::advance(Leg& leg) {
   } else {
     for (size_t i = 0; const Leg::Span* span = leg.span(i); ++i) {
       if (!span->medium) continue;
-      medium_ = span->medium;
       if (const std::optional<float> t = sample_collision(leg.ray(), *span))
         return meet_medium(*t, span->medium);
       if (is_black(beta_)) return false;
@@ -160,8 +158,12 @@ void Path::add_environment() {
   if (!rules_.orders.contains(order_)) return;
   for (const size_t i : scene_.environments()) {
     const Light& light = scene_.lights()[i];
-    add(beta_ * light.environment(ray_.d) *
-        hit_weight(i, environment_pdf(light, sky_guide(i), start_.p, ray_.d), infinity));
+    const float weight =
+        start_.is_specular
+            ? 1
+            : hit_weight(i, environment_pdf(light, sky_guide(i), start_.p, ray_.d),
+                         infinity);
+    add(beta_ * light.environment(ray_.d) * weight);
   }
 }
 

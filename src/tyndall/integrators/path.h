@@ -33,8 +33,8 @@ struct PathRules {
   const WalkWorth* worth = nullptr;
   /// Predicts where skies are seen; null: they are sampled as if nothing hid them.
   const LightVisibility* visibility = nullptr;
-  bool sees_through =
-      false;  ///< nothing hides a light from a connection: for training only
+  /// Nothing hides a light from a connection: for training only.
+  bool sees_through = false;
   /// Null: walks alone find light that lamps send over specular surfaces.
   const ParticleTracer* particles = nullptr;
 };

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The connections of a path to lights, and their weights.
 #include <algorithm>
-#include <cmath>
 #include <type_traits>
 
 #include "tyndall/integrators/path.h"
@@ -11,8 +10,8 @@
 namespace tyndall {
 namespace {
 
-// What the other kinds of connections find is not predicted. What the walk carries does not
-// do by itself: walks survive that are worth more, and carry less.
+// What the other kinds of connections find is not predicted. What the walk carries alone is
+// no prediction: walks survive that are worth more, and carry less.
 constexpr float unknown = 0;
 
 }  // namespace
@@ -139,9 +138,8 @@ float Path::direct_weight(const LightEnd& end) {
 }
 
 // Of the walk that, from start_, has hit a light where the light's own sampling has the
-// density `light_pdf`.
+// density `light_pdf`. Precondition: start_ is not specular.
 float Path::hit_weight(size_t light, float light_pdf, float distance) {
-  if (start_.is_specular) return 1;
   const LightEnd end{.light = light,
                      .probability = light_probability(start_.p, light),
                      .pdf = light_pdf,

@@ -19,7 +19,7 @@ struct Path::DualStart {
 
 // What arrives there from that direction.
 struct Path::ScatteredOnce {
-  Rgb light;                  // over the densities of its vertex and of the light's point
+  Rgb light{};                // over the densities of its vertex and of the light's point
   float weight = 0;           // of multiple importance sampling
   float distance = infinity;  // to the vertex that scattered it
 };
@@ -93,10 +93,10 @@ Path::ScatteredOnce Path::connect_beyond(const DualStart& start, float u,
   const std::optional<DistanceSample> second =
       single ? single->sample(u) : std::optional<DistanceSample>();
   const Medium* medium = second ? next_leg.proxy().medium_at(second->t) : nullptr;
-  if (!medium) return {.light = Rgb()};
+  if (!medium) return {};
   const Vertex y(next.ray().at(second->t), -w, medium);
   const Connection connection = connect_to(y, start.light);
-  if (is_black(connection.light)) return {.light = Rgb(), .distance = second->t};
+  if (is_black(connection.light)) return {.distance = second->t};
   return {.light = transmittance_along(next, second->t, tracking_) *
                    medium->at(y.p()).sigma_s * connection.light /
                    (second->pdf_t * connection.end.pdf),
