@@ -4,10 +4,12 @@
 
 #include <cmath>
 #include <map>
+#include <memory>
 #include <optional>
 
 #include "scenes.h"
 #include "support/statistical_tests.h"
+#include "tyndall/integrators/integrator.h"
 #include "tyndall/integrators/particle_pass.h"
 #include "tyndall/integrators/particle_tracer.h"
 
@@ -267,6 +269,20 @@ TEST(Particles, SplatsAreDimmedToTheMaximumComponent) {
   EXPECT_NEAR(red_splats(scene, 2e-12f), 2 * few, 1e-5 * few);
   EXPECT_GT(few, 0);
   EXPECT_LT(few, 6 * 1e-12 * 60 * 60);
+}
+
+// Not pilot paths, nor those that connections are compared with.
+TEST(Particles, AreWeighedAgainstTheWalksOfThePicture) {
+  const Scene scene(lit_through_glass({"sphere", "fog", "hollow"}));
+  const RenderSettings s = test::settings("equiangular", 7);
+  const std::unique_ptr<Integrator> integrator = make_integrator(scene, s);
+  const ParticleTracer* particles = integrator->particles();
+  ASSERT_TRUE(particles);
+  for (const uint32_t first : {0u, 1u, 4u}) integrator->prepare(first, {});
+  EXPECT_EQ(particles->walk_rays(), 0);
+  Sampler sampler(s.sampler, s.seed, {0, 0}, 0);
+  integrator->Li(scene.camera().ray({0.5f, 0.5f}, {0.5f, 0.5f}), sampler);
+  EXPECT_GE(particles->walk_rays(), 2);
 }
 
 Image picture_of_30(const std::string& integrator, int threads, uint32_t spp) {

@@ -168,7 +168,6 @@ void Path::add_environment() {
 }
 
 void Path::finish() const {
-  if (rules_.particles) record_cost();
   if (!rules_.budget || !rules_.budget->is_recording()) return;
   rules_.budget->record_path(sampler_.pixel(), {.value = luminance(result_.L),
                                                 .legs = legs(),

@@ -73,6 +73,8 @@ class Path {
   void finish() const;
   const PathSample& result() const { return result_; }
   int legs() const { return depth_ + 1; }
+  /// Two for each leg, one along it and one to a light, and those of connections.
+  float rays() const { return 2 * static_cast<float>(legs()) + spent_; }
 
  private:
   bool meet_medium(float t, const Medium* medium);
@@ -118,7 +120,6 @@ class Path {
   float direct_weight(const LightEnd& end);
   float hit_weight(size_t light, float light_pdf, float distance);
   float particle_ratio(const DirectionSample& s) const;
-  void record_cost() const;
   float weight_beside_particles(const SurfaceHit& hit) const;
   bool counts(int in_media, int on_surfaces = 0) const;
   // What one connection finds, before spectral MIS.

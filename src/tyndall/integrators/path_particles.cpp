@@ -24,11 +24,6 @@ float Path::particle_ratio(const DirectionSample& s) const {
                                         .pdf_to_light = s.pdf});
 }
 
-// Two rays for each leg: one along it, and one to a light.
-void Path::record_cost() const {
-  rules_.particles->record_walk(2 * static_cast<float>(legs()) + spent_);
-}
-
 // Of the walk that has hit a lamp by way of a specular vertex, or at once.
 float Path::weight_beside_particles(const SurfaceHit& hit) const {
   if (!rules_.particles || !(particle_ratio_ > 0)) return 1;

@@ -127,7 +127,7 @@ void PathTracer::for_pilot_rays(PilotRays rays, const Trace& trace) const {
 float PathTracer::pilot_radiance() const {
   double sum = 0;
   for_pilot_rays({0, pilot_paths}, [&](const Ray& ray, Sampler& sampler, Vec2i) {
-    const float found = luminance(Li(ray, sampler).L);
+    const float found = luminance(trace(rules_, ray, sampler).sample.L);
     if (std::isfinite(found)) sum += double{found};
   });
   return static_cast<float>(sum / pilot_paths);
@@ -251,7 +251,10 @@ void PathTracer::dump(GuidingFileWriter& out) const {
 
 PathSample PathTracer::Li(const Ray& ray, Sampler& sampler) const {
   const bool is_plain = budget_ && !budget_->pays();
-  return trace(is_plain ? plain_rules_ : rules_, ray, sampler).sample;
+  const Traced path = trace(is_plain ? plain_rules_ : rules_, ray, sampler);
+  // Not of pilot and trial paths: particles are weighed against the picture's own.
+  if (particles_) particles_->record_walk(path.rays);
+  return path.sample;
 }
 
 PathTracer::Traced PathTracer::trace(const PathRules& rules, const Ray& ray,
@@ -265,7 +268,7 @@ PathTracer::Traced PathTracer::trace(const PathRules& rules, const Ray& ray,
     path.estimate_direct();
   } while (path.scatter());
   path.finish();
-  return {path.result(), path.legs()};
+  return {path.result(), path.legs(), path.rays()};
 }
 
 }  // namespace tyndall

@@ -31,6 +31,7 @@ class PathTracer : public Integrator {
   struct Traced {
     PathSample sample;
     int legs;
+    float rays;
   };
   Traced trace(const PathRules& rules, const Ray& ray, Sampler& sampler) const;
   float pilot_radiance() const;
