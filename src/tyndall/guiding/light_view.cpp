@@ -61,8 +61,8 @@ Vec3 octahedral_direction(Vec2 uv) {
 }
 
 template <typename Project>
-void project_all(Vec3 o, Vec3 d, std::span<const float> t, ViewBatch& out,
-                 Project project) {
+[[gnu::always_inline]] inline void project_all(Vec3 o, Vec3 d, std::span<const float> t,
+                                               ViewBatch& out, Project project) {
   std::array<float, ViewBatch::capacity> distances;  // of its own: `t` may be part of `out`
   std::copy(t.begin(), t.end(), distances.begin());
   for (size_t i = 0; i < t.size(); ++i) {

@@ -6,6 +6,7 @@
 #include <boost/container/small_vector.hpp>
 #include <cassert>
 #include <cmath>
+#include <numbers>
 
 #include "tyndall/math/constants.h"
 #include "tyndall/math/vector_clones.h"
@@ -55,6 +56,7 @@ VisibilityMap::VisibilityMap(const LightView& view, const VisibilityMapSettings&
       rays_per_texel_(settings.rays_per_texel),
       floor_(settings.floor),
       edge_depth_(settings.edge_depth),
+      texels_per_extent_(static_cast<float>(resolution_) / view.extent()),
       seed_(settings.seed) {
   assert(std::has_single_bit(static_cast<unsigned>(resolution_)) &&
          resolution_ <= static_cast<int>(max_resolution));
@@ -198,9 +200,10 @@ void VisibilityMap::visibility(const Ray& ray, std::span<const float> t,
 }
 
 int VisibilityMap::level_of(float footprint) const {
-  const float texel = view_.extent() / static_cast<float>(resolution_);
-  const float level = std::round(std::log2(std::max(footprint / texel, 1.0f)));
-  return level < static_cast<float>(levels()) ? static_cast<int>(level) : levels() - 1;
+  // The logarithm to the base of two, rounded.
+  const float texels = std::numbers::sqrt2_v<float> * texels_per_extent_ * footprint;
+  const int level = texels >= 2 ? std::ilogb(std::min(texels, 1e30f)) : 0;
+  return std::min(level, levels() - 1);
 }
 
 void VisibilityMap::write(ByteWriter& out) const {

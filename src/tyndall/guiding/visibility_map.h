@@ -97,6 +97,7 @@ class VisibilityMap {
   LightView view_;
   int resolution_, rays_per_texel_;
   float floor_, edge_depth_;
+  float texels_per_extent_;  // of the finest level, over what LightView::extent() says
   uint64_t seed_;
   std::vector<int32_t> level_offset_;
   std::vector<Texel>

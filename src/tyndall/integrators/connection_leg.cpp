@@ -23,8 +23,9 @@ constexpr float floor_share_of_visible = 0.05f;
 // Where a spot light shines, from 0 to 1: the cone's edge as a ramp, and each tap with its
 // neighbours, lest a bin that the edge cuts is taken for dark.
 template <int K>
-void multiply_cone(const SpotLight& light, const Ray& ray, const DistanceTaps<K>& taps,
-                   DistanceWeights<K>& weights) {
+[[gnu::always_inline]] inline void multiply_cone(const SpotLight& light, const Ray& ray,
+                                                 const DistanceTaps<K>& taps,
+                                                 DistanceWeights<K>& weights) {
   const float c0 = dot(ray.o - light.p, light.axis), c1 = dot(ray.d, light.axis);
   const float scale = 1 / std::max(light.cos_falloff_start - light.cos_total, 1e-3f);
   std::array<float, K + 2> lit;
@@ -120,8 +121,8 @@ bool ConnectionLeg::is_homogeneous() const {
 }
 
 template <int K>
-DistanceWeights<K> ConnectionLeg::weights(const DistanceTaps<K>& taps,
-                                          bool with_phase) const {
+[[gnu::always_inline]] inline DistanceWeights<K> ConnectionLeg::weights(
+    const DistanceTaps<K>& taps, bool with_phase) const {
   auto weights = DistanceWeights<K>::ones();
   const Medium* medium = proxy_.first_medium();
   if (is_homogeneous()) {
@@ -244,6 +245,7 @@ float ConnectionLeg::forced_light_probability(size_t light) {
   return forced_lights().probability(light);
 }
 
+TYNDALL_VECTOR_CLONES
 std::optional<ConnectionLeg::Lit> ConnectionLeg::lit(Vec3 p, Vec3 ng, Vec3 to_light) const {
   if (is_empty()) return std::nullopt;
   const EquiangularSampling base(ray_, p, proxy_.t_min(), t_max_);

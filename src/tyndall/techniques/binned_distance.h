@@ -88,7 +88,7 @@ class BinnedDistance {
   }
 
   template <int Bins, int K>
-  void make(const DistanceWeights<K>& weights, float floor) {
+  [[gnu::always_inline]] inline void make(const DistanceWeights<K>& weights, float floor) {
     static_assert(Bins <= MaxBins && (K % Bins == 0 || Bins % K == 0));
     constexpr int taps = std::max(K / Bins, 1), bins_per_tap = std::max(Bins / K, 1);
     alignas(32) std::array<float, K> clean;
@@ -103,7 +103,8 @@ class BinnedDistance {
   }
 
   template <size_t N>
-  void accumulate(const std::array<float, N>& bin, float floor) {
+  [[gnu::always_inline]] inline void accumulate(const std::array<float, N>& bin,
+                                                float floor) {
     constexpr int Bins = N;
     bins_ = Bins;
     one_by_bins_ = 1.0f / Bins;

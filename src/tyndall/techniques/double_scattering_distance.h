@@ -97,7 +97,7 @@ class DoubleScatteringDistance {
 };
 
 template <int K>
-DistanceTaps<K> DoubleScatteringDistance::taps() const {
+[[gnu::always_inline]] inline DistanceTaps<K> DoubleScatteringDistance::taps() const {
   // r + s is a geometric sequence; each tap is the product of one of the first eight and
   // the power of one ratio.
   constexpr int lanes = 8;

@@ -102,7 +102,7 @@ class EquiangularSampling {
 };
 
 template <int K>
-DistanceTaps<K> EquiangularSampling::taps() const {
+[[gnu::always_inline]] inline DistanceTaps<K> EquiangularSampling::taps() const {
   // The unit vector from the pivot turns by equal angles from tap to tap: the first eight
   // by doubling, the rest by turning eight together. Sines are kept over h, which may be
   // zero.
