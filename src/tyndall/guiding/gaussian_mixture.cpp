@@ -7,6 +7,7 @@
 
 #include "tyndall/guiding/vector_exp.h"
 #include "tyndall/math/constants.h"
+#include "tyndall/math/elementary.h"
 
 namespace tyndall {
 
@@ -86,9 +87,9 @@ std::optional<MixtureSample> GaussianMixture::sample(Vec2 u) const {
   const float rest = std::clamp(u.x / weight_[k], 0.0f, one_minus_epsilon);
 
   const float radius = std::sqrt(-2 * std::log1p(-rest));
-  const float angle = 2 * pi * u.y;
-  const float a = radius * std::cos(angle);
-  const float b = radius * std::sin(angle);
+  const SineCosine angle = sine_cosine_of_turns(u.y);
+  const float a = radius * angle.cosine;
+  const float b = radius * angle.sine;
   const float dx = a / inverse_xx_[k];
   const float dy = (b - inverse_yx_[k] * dx) / inverse_yy_[k];
   const Vec2 p{mean_x_[k] + dx, mean_y_[k] + dy};

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "tyndall/math/elementary.h"
 #include "tyndall/math/scalar.h"
 
 namespace tyndall {
@@ -94,6 +95,12 @@ inline bool is_finite(Vec3 a) {
 inline Vec3 spherical_direction(float cos_theta, float phi) {
   const float sin_theta = safe_sqrt(1 - sqr(cos_theta));
   return {sin_theta * std::cos(phi), sin_theta * std::sin(phi), cos_theta};
+}
+/// The same at an azimuth of so many turns, in [0, 1]: for uniform numbers.
+inline Vec3 spherical_direction_of_turns(float cos_theta, float turns) {
+  const float sin_theta = safe_sqrt(1 - sqr(cos_theta));
+  const SineCosine phi = sine_cosine_of_turns(turns);
+  return {sin_theta * phi.cosine, sin_theta * phi.sine, cos_theta};
 }
 
 }  // namespace tyndall

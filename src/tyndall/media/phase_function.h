@@ -21,7 +21,7 @@ class IsotropicPhase {
   float eval(Vec3 /*wo*/, Vec3 /*wi*/) const { return inv_4pi; }
   float pdf(Vec3 /*wo*/, Vec3 /*wi*/) const { return inv_4pi; }
   std::optional<PhaseSample> sample(Vec3 /*wo*/, Vec2 u) const {
-    const Vec3 wi = spherical_direction(1 - 2 * u.x, 2 * pi * u.y);
+    const Vec3 wi = spherical_direction_of_turns(1 - 2 * u.x, u.y);
     return PhaseSample{.wi = wi, .value = inv_4pi, .pdf = inv_4pi};
   }
   float mean_cosine() const { return 0; }
@@ -49,7 +49,7 @@ class HenyeyGreenstein {
   float pdf(Vec3 wo, Vec3 wi) const { return eval(wo, wi); }
   /// Draws wi in proportion to eval(). Never empty.
   std::optional<PhaseSample> sample(Vec3 wo, Vec2 u) const {
-    const Vec3 local = spherical_direction(sample_cosine(u.x), 2 * pi * u.y);
+    const Vec3 local = spherical_direction_of_turns(sample_cosine(u.x), u.y);
     const Vec3 wi = Frame::from_z(-wo).to_world(local);
     const float p = eval(wo, wi);
     return PhaseSample{.wi = wi, .value = p, .pdf = p};
@@ -110,7 +110,7 @@ class RayleighPhase {
     // The CDF (cos^3 + 3 cos + 4) / 8 = u is a cubic with one real root [Frisvad11].
     const float q = 4 * u.x - 2;
     const float a = std::cbrt(q + std::sqrt(sqr(q) + 1));
-    const Vec3 local = spherical_direction(a - 1 / a, 2 * pi * u.y);
+    const Vec3 local = spherical_direction_of_turns(a - 1 / a, u.y);
     const Vec3 wi = Frame::from_z(-wo).to_world(local);
     const float p = eval(wo, wi);
     return PhaseSample{.wi = wi, .value = p, .pdf = p};

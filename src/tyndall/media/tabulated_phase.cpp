@@ -61,7 +61,7 @@ std::optional<PhaseSample> TabulatedPhase::sample(Vec3 wo, Vec2 u) const {
   const float root = a + std::sqrt(std::max(a * a + 2 * rest * (b - a) / width, 0.0f));
   const float x = root > 0 ? std::clamp(2 * rest / root, 0.0f, width) : 0;
   const float cos_theta = std::clamp(-1 + width * static_cast<float>(i) + x, -1.0f, 1.0f);
-  const Vec3 local = spherical_direction(cos_theta, 2 * pi * u.y);
+  const Vec3 local = spherical_direction_of_turns(cos_theta, u.y);
   const Vec3 wi = Frame::from_z(-wo).to_world(local);
   const float p = eval(wo, wi);
   return PhaseSample{.wi = wi, .value = p, .pdf = p};

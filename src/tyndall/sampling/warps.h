@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tyndall/math/constants.h"
+#include "tyndall/math/elementary.h"
 #include "tyndall/math/vec.h"
 
 /// Maps of uniform numbers in [0, 1) to densities on disks, spheres and lines. Each comes
@@ -20,8 +21,8 @@ inline float one_minus_cos(Vec3 w) {
 
 /// The azimuth of (x, y) as a number in [0, 1).
 inline float azimuth_to_unit(float x, float y) {
-  const float turns = std::atan2(y, x) * (0.5f * inv_pi);
-  return std::min(turns < 0 ? turns + 1 : turns, one_minus_epsilon);
+  const float turns = polar_angle(x, magnitude(y)).theta * (0.5f * inv_pi);
+  return std::min(y < 0 ? 1 - turns : turns, one_minus_epsilon);
 }
 
 /// A point of the unit disk, uniform by area; squares around the centre become circles
@@ -29,12 +30,11 @@ inline float azimuth_to_unit(float x, float y) {
 inline Vec2 sample_concentric_disk(Vec2 u) {
   const float x = 2 * u.x - 1, y = 2 * u.y - 1;
   if (x == 0 && y == 0) return {};
-  if (magnitude(x) > magnitude(y)) {
-    const float phi = pi / 4 * (y / x);
-    return {x * std::cos(phi), x * std::sin(phi)};
-  }
-  const float phi = pi / 4 * (x / y);
-  return {y * std::sin(phi), y * std::cos(phi)};
+  const bool x_major = magnitude(x) > magnitude(y);
+  const float major = x_major ? x : y, minor = x_major ? y : x;
+  const float phi = pi / 4 * (minor / major), square = phi * phi;
+  const float c = major * cosine_by_square(square), s = major * phi * sine_over(square);
+  return x_major ? Vec2{c, s} : Vec2{s, c};
 }
 constexpr float concentric_disk_pdf() { return inv_pi; }
 inline Vec2 invert_concentric_disk(Vec2 p) {
@@ -42,7 +42,7 @@ inline Vec2 invert_concentric_disk(Vec2 p) {
   const float major = x_major ? p.x : p.y, minor = x_major ? p.y : p.x;
   if (major == 0) return {0.5f, 0.5f};
   const float radius = std::copysign(std::sqrt(dot(p, p)), major);
-  const float other = radius * std::atan(minor / major) * (4 / pi);
+  const float other = radius * arc_tangent(minor / major) * (4 / pi);
   const auto to_unit = [](float a) {
     return std::clamp(0.5f * (a + 1), 0.0f, one_minus_epsilon);
   };
@@ -63,7 +63,7 @@ inline Vec2 invert_cosine_hemisphere(Vec3 w) { return invert_concentric_disk({w.
 
 /// A direction of the whole sphere, uniform.
 inline Vec3 sample_uniform_sphere(Vec2 u) {
-  return spherical_direction(1 - 2 * u.x, 2 * pi * u.y);
+  return spherical_direction_of_turns(1 - 2 * u.x, u.y);
 }
 constexpr float uniform_sphere_pdf() { return inv_4pi; }
 inline Vec2 invert_uniform_sphere(Vec3 w) {
@@ -76,8 +76,8 @@ inline Vec2 invert_uniform_sphere(Vec3 w) {
 inline Vec3 sample_uniform_cone(Vec2 u, float one_minus_cos_max) {
   const float h = u.x * one_minus_cos_max;
   const float sin_theta = safe_sqrt(h * (2 - h));
-  const float phi = 2 * pi * u.y;
-  return {sin_theta * std::cos(phi), sin_theta * std::sin(phi), 1 - h};
+  const SineCosine phi = sine_cosine_of_turns(u.y);
+  return {sin_theta * phi.cosine, sin_theta * phi.sine, 1 - h};
 }
 /// Within the cone; the caller knows whether a direction is.
 constexpr float uniform_cone_pdf(float one_minus_cos_max) {

@@ -221,7 +221,7 @@ float DoubleScatteringDirection::pdf(Vec3 w) const {
   if (!is_proper_) return 0;
   const Polar p = polar(w);
   if (tables_->is_isotropic())
-    return density_or_zero(isotropic_pdf(w, 2 * std::atan2(p.cos_half, p.sin_half)));
+    return density_or_zero(isotropic_pdf(w, 2 * polar_angle(p.sin_half, p.cos_half).theta));
   const TablePoint at = table_point(p);
   if (!(at.warp.width > 0)) return 0;
   const float of_theta = polar_density().density(at.theta) * theta_cells;
