@@ -17,7 +17,7 @@ namespace tyndall {
 namespace {
 
 constexpr unsigned max_resolution = 512, min_resolution = 16;
-constexpr size_t max_taps = 256;
+constexpr size_t max_taps = 128;
 constexpr int depth_resolution = 32, depth_steps = 16;
 
 int resolution_for(double texels) {
@@ -118,7 +118,7 @@ void LightVisibility::measure_sky(size_t light, const Scene& scene,
 TYNDALL_VECTOR_CLONES
 void LightVisibility::multiply(size_t light, const Ray& ray, std::span<const float> t,
                                float footprint, std::span<float> weights) const {
-  assert(t.size() <= max_taps && t.size() % weights.size() == 0);
+  assert(t.size() <= max_taps && t.size() == 2 * weights.size());
   std::array<float, max_taps> visibility;
   const std::span<float> seen(visibility.data(), t.size());
   if (const auto map = maps_.find(light); map != maps_.end())
@@ -127,13 +127,14 @@ void LightVisibility::multiply(size_t light, const Ray& ray, std::span<const flo
     sky->second.exposure(ray, t, seen);
   else
     return;
-  const size_t taps = t.size() / weights.size();
-  const float scale = 1 / static_cast<float>(taps);
-  for (size_t i = 0; i < weights.size(); ++i) {
-    float sum = 0;
-    for (size_t j = 0; j < taps; ++j) sum += visibility[i * taps + j];
-    weights[i] *= sum * scale;
-  }
+  // Each pair is mixed with its neighbours, lest one that an edge cuts is taken for dark.
+  std::array<float, max_taps / 2 + 2> pairs;
+  const size_t n = weights.size();
+  for (size_t i = 0; i < n; ++i) pairs[i + 1] = visibility[2 * i] + visibility[2 * i + 1];
+  pairs[0] = pairs[1];
+  pairs[n + 1] = pairs[n];
+  for (size_t i = 0; i < n; ++i)
+    weights[i] *= 0.25f * pairs[i + 1] + 0.125f * (pairs[i] + pairs[i + 2]);
 }
 
 void LightVisibility::multiply_transmittance(size_t light, const Ray& ray,
