@@ -2,6 +2,8 @@
 // Predicted visibility: what is sampled with it, and that a wrong one biases nothing.
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "scenes.h"
 #include "support/chi_square.h"
 #include "tyndall/integrators/connection_leg.h"
@@ -77,6 +79,27 @@ TEST(PredictedVisibilityTest, AWrongMapIsNoBias) {
       EXPECT_GT(guided.variance(), right_variance);
     }
   }
+}
+
+// A pair of taps is mixed with those beside it: what lies just behind an edge is not dark.
+TEST(PredictedVisibilityTest, BinsKnowOfTheirNeighbours) {
+  VisibilityMapSettings settings;
+  settings.resolution = 256;
+  auto map = std::make_shared<VisibilityMap>(LightView::around({}), settings);
+  map->trace_rows(0, map->rows(),
+                  [](const Ray& ray, Vec2) { return ray.d.x < 0 ? infinity : 0.0f; });
+  map->finish();
+  const LightVisibility visibility(LightVisibility::Maps{{0, map}});
+  std::array<float, 32> t;
+  for (size_t i = 0; i < t.size(); ++i) t[i] = (static_cast<float>(i) + 0.5f) / 16;
+  std::array<float, 16> weights;
+  weights.fill(2);
+  visibility.multiply(0, Ray{{-1, 0, 1}, {1, 0, 0}}, t, 0, weights);  // lit up to t = 1
+  const float dark = map->floor();
+  for (const size_t i : {0, 3, 6}) EXPECT_FLOAT_EQ(weights[i], 2);
+  EXPECT_FLOAT_EQ(weights[7], 2 * (0.75f + 0.25f * dark));
+  EXPECT_FLOAT_EQ(weights[8], 2 * (0.25f + 0.75f * dark));
+  for (const size_t i : {9, 12, 15}) EXPECT_FLOAT_EQ(weights[i], 2 * dark);
 }
 
 // What a leg samples with predicted visibility has the density that it states, and follows
