@@ -199,9 +199,10 @@ def pair(values):
 def rows_of(measured, scene, variant):
     """Lines of the table for one scene; `measured` by integrator, the baseline first."""
     base = next(iter(measured.values()))
+    base_error = base.error()
     for integrator, m in measured.items():
         efficiency = pair(base.cost() / m.cost())
-        error = np.hypot(base.error(), m.error())
+        error = np.hypot(base_error, m.error())
         if m is not base and np.all(np.isfinite(error)):
             efficiency += f" (± {100 * error[0]:.0f} / {100 * error[1]:.0f} %)"
         yield [f"{scene} {variant}", integrator, f"{len(m.runs)} x {m.spp:.0f}", f"{m.cpu:.1f}",

@@ -202,7 +202,7 @@ void VisibilityMap::visibility(const Ray& ray, std::span<const float> t,
 int VisibilityMap::level_of(float footprint) const {
   // The logarithm to the base of two, rounded.
   const float texels = std::numbers::sqrt2_v<float> * texels_per_extent_ * footprint;
-  const int level = texels >= 2 ? std::ilogb(std::min(texels, 1e30f)) : 0;
+  const int level = texels >= 2 ? std::ilogb(texels) : 0;  // of infinity, a large one
   return std::min(level, levels() - 1);
 }
 

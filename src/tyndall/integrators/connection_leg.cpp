@@ -20,8 +20,7 @@ constexpr float floor_share = 0.1f;
 // The same where they hold predicted visibility, whose own floor adds to it.
 constexpr float floor_share_of_visible = 0.05f;
 
-// Where a spot light shines, from 0 to 1: the cone's edge as a ramp, and each tap with its
-// neighbours, lest a bin that the edge cuts is taken for dark.
+// Where a spot light shines, from 0 to 1: the cone's edge as a ramp.
 template <int K>
 [[gnu::always_inline]] inline void multiply_cone(const SpotLight& light, const Ray& ray,
                                                  const DistanceTaps<K>& taps,
@@ -33,10 +32,7 @@ template <int K>
     const float cosine = (c0 + c1 * taps.t[i]) / taps.distance[i];
     lit[i + 1] = std::clamp((cosine - light.cos_total) * scale, 0.0f, 1.0f);
   }
-  lit[0] = lit[1];
-  lit[K + 1] = lit[K];
-  for (size_t i = 0; i < K; ++i)
-    weights.values[i] *= 0.25f * (lit[i] + lit[i + 2]) + 0.5f * lit[i + 1];
+  multiply_mixed(lit, weights.values);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "tyndall/integrators/sky_probe.h"
 #include "tyndall/math/parallel_for.h"
 #include "tyndall/math/vector_clones.h"
+#include "tyndall/techniques/distance_weights.h"
 
 namespace tyndall {
 namespace {
@@ -127,14 +128,10 @@ void LightVisibility::multiply(size_t light, const Ray& ray, std::span<const flo
     sky->second.exposure(ray, t, seen);
   else
     return;
-  // Each pair is mixed with its neighbours, lest one that an edge cuts is taken for dark.
-  std::array<float, max_taps / 2 + 2> pairs;
-  const size_t n = weights.size();
-  for (size_t i = 0; i < n; ++i) pairs[i + 1] = visibility[2 * i] + visibility[2 * i + 1];
-  pairs[0] = pairs[1];
-  pairs[n + 1] = pairs[n];
-  for (size_t i = 0; i < n; ++i)
-    weights[i] *= 0.25f * pairs[i + 1] + 0.125f * (pairs[i] + pairs[i + 2]);
+  std::array<float, max_taps / 2 + 2> means;
+  for (size_t i = 0; i < weights.size(); ++i)
+    means[i + 1] = 0.5f * (visibility[2 * i] + visibility[2 * i + 1]);
+  multiply_mixed(means, weights);
 }
 
 void LightVisibility::multiply_transmittance(size_t light, const Ray& ray,

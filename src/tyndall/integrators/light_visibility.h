@@ -40,8 +40,8 @@ class LightVisibility {
   explicit LightVisibility(Maps maps, Skies skies = {})
       : maps_(std::move(maps)), skies_(std::move(skies)) {}
 
-  /// Multiplies each weight by the visibility from the light of its two taps, which are
-  /// neighbours, and half as much of the pairs beside them; at most 64 weights.
+  /// Multiplies each weight by the mean visibility from the light of its two taps, which
+  /// are neighbours, as multiply_mixed() does; at most 64 weights.
   /// `footprint` is the angle between neighbouring taps, seen from the light [rad], or
   /// their distance if the light is at infinity.
   void multiply(size_t light, const Ray& ray, std::span<const float> t, float footprint,

@@ -3,11 +3,25 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <span>
 
 #include "tyndall/techniques/distance_taps.h"
 #include "tyndall/techniques/fast_exp.h"
 
 namespace tyndall {
+
+/// Multiplies each weight by half of its own factor and a quarter of each neighbour's, lest
+/// one that an edge cuts is taken for dark. The factor of weights[i] is factors[i + 1]; the
+/// places before the first and behind the last are filled here.
+[[gnu::always_inline]] inline void multiply_mixed(std::span<float> factors,
+                                                  std::span<float> weights) {
+  const size_t n = weights.size();
+  factors[0] = factors[1];
+  factors[n + 1] = factors[n];
+  for (size_t i = 0; i < n; ++i)
+    weights[i] *= 0.25f * (factors[i] + factors[i + 2]) + 0.5f * factors[i + 1];
+}
 
 /// What a distance technique leaves out of an integrand, at its taps: the argument of
 /// BinnedDistance. Any further factor, such as predicted visibility, is multiplied in by
